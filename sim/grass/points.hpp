@@ -1,0 +1,40 @@
+// Texel -> points and points -> texel (Jiao et al. 2010, sec. 2.3), and the combining of points (Algorithm 1).
+#pragma once
+#include <cstdint>
+
+#include "sim/core/point_set.hpp"
+#include "sim/core/texel_grid.hpp"
+#include "sim/grass/blades.hpp"
+
+namespace witherfield::grass {
+
+/// Num(x,y,z) = floor(proportion * density + u), u uniform in [0,1): unbiased (erratum E0.2). Each point is placed uniformly in its voxel and
+/// inherits the voxel's frame, material, tissue, blade and arc. Random numbers are keyed by (seed, voxel index): any thread count,
+/// same points, in ascending order of (brick, voxel).
+/// `point_mass_kg` of every point. @throws InvalidInput when proportion <= 0.
+PointSet sample_points(const TexelGrid& grid, double proportion, double point_mass_kg, std::uint64_t seed);
+
+/// Finds, for every point, the arc and the offset in the frame of its blade (searching near the inherited arc): the nearest spot of the centre
+/// line of blade (blade_id - first_blade_id) of `state`.
+void attach_to_blades(PointSet& points, const BladeState& state, int first_blade_id = 0);
+
+/// Moves and updates points that ride on blades: position = centre(arc) + frame(arc) * offset, with the offset scaled by the blade's shrinkage
+/// since `initial` (side: half_width ratio, normal: thickness ratio); material interpolated along the blade; velocity by the blade's.
+/// Tangent along the blade, normal carried by the same rotation of the frame. z >= 0. This is the update of N, T, M in Algorithm 1.
+void ride_on_blades(PointSet& points, const BladeState& initial, const BladeState& now, int first_blade_id = 0);
+
+/// Combines points of the same blade and tissue that are nearer than distance_m: masses add; position, velocity, frame and material are
+/// mass-weighted means (tangents and normals as axial data), renormalised (fig. 6b; erratum E0.7). Each point
+/// takes part in at most one combination per call; partner = nearest, ties by index. Order-independent, any thread count. Returns the number of combinations.
+std::size_t merge_points(PointSet& points, double distance_m);
+
+/// Gaussian splat. For point i and voxel c: w = prod over axes of exp(-(d/(2 sigma^2))) over a cube of voxels within ceil(3 sigma)
+/// (at least 1), divided by its own sum over the voxels in the grid, times mass_i / point_mass_kg: so sum over voxels of w = weight
+/// of the point exactly, and density = sum_i w_i / proportion conserves (Jiao et al. 2010, sec. 2.3; errata E0.4, E0.5).
+/// Attributes are w-weighted means; tangent and normal are the principal axes of sum w t t^T and sum w n n^T (axial data; signs chosen so that the
+/// tangent's z >= 0, and normal's dot with ... the heaviest point's normal >= 0); blade_id, arc, tissue of the heaviest point.
+/// Points outside the grid in x, y wrap by whole tiles; in z they are clamped to the first / last layer.
+/// Voxel-centric: each brick gathers its points and is written once; no dense pass. Reuses `out`'s memory. Any thread count, same bits.
+void splat_points(const PointSet& points, const GridShape& shape, double sigma_voxels, TexelGrid& out);
+
+}  // namespace witherfield::grass
