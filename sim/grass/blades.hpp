@@ -37,6 +37,7 @@ struct BladeState {
   int segments = 0;
   double wd = 0;                          ///< the sample's own weathering degree
   double time_days = 0;
+  double chlorophyll_fresh_ug_cm2 = 43.9;  ///< content that `chlorophyll` is a fraction of
   std::vector<glm::dvec3> node_m;         ///< centre line
   std::vector<glm::dvec3> velocity_m_day;
   std::vector<glm::dvec3> tangent, side;  ///< unit, orthogonal; normal = side x tangent... see blade_normal

@@ -10,6 +10,8 @@ namespace witherfield::grass {
 
 /// Turgor pressure in MPa at relative water content w: max(0, -pi0 - eps (1 - w)) (facts d.3).
 double turgor_MPa(const TissueOptions& t, double water);
+/// How freely the shape flows: 0 at full turgor, 1 without, 0 again when dry (the shape is set). Drives creep and the paper's droop.
+double limpness(const TissueOptions& t, double water);
 /// Bending modulus of the whole blade in MPa: falls with turgor to limp, rises again as the tissue dries out.
 double bending_modulus_MPa(const TissueOptions& t, double water);
 /// Moduli of the tissues grow as water is lost: E(w) = E_fresh + (E_dry - E_fresh)(1 - w).

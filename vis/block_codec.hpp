@@ -1,0 +1,43 @@
+// The compressed blocks of VTK's XML formats: an array's bytes are cut into blocks of equal size (the last may be
+// shorter), each compressed on its own. Blocks of zeros are all alike and are compressed once.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "vis/writers.hpp"
+
+namespace witherfield::vis {
+
+using Block = std::shared_ptr<const std::vector<char>>;
+
+struct CompressedBytes {
+  std::uint64_t block_bytes = 0;  ///< uncompressed size of every block but the last
+  std::uint64_t last_bytes = 0;   ///< uncompressed size of the last block
+  std::vector<Block> blocks;
+
+  /// The header that VTK puts before the blocks: number, block size, size of a partial last block (0 = none),
+  /// then the compressed size of each.
+  std::vector<std::uint64_t> header() const;
+  /// Header and blocks together.
+  std::uint64_t stored_bytes() const;
+};
+
+/// Writes the bytes of block `index` to `out` (which holds anything). Returns false, and may leave `out` as it
+/// is, when the block is all zeros. Called from several threads at once.
+using BlockFill = std::function<bool(std::size_t index, std::span<std::byte> out)>;
+
+/// @pre block_bytes > 0. Same bytes for any thread count.
+CompressedBytes compress_blocks(std::uint64_t total_bytes, std::uint64_t block_bytes, Compression compression,
+                                const BlockFill& fill);
+
+/// Bytes that lie in memory already.
+CompressedBytes compress_bytes(std::span<const std::byte> bytes, Compression compression);
+
+/// x rounded to nearest even with 10 bits of mantissa kept: relative error at most 2^-11. Infinities and NaN stay.
+float round_mantissa(float x);
+
+}  // namespace witherfield::vis
