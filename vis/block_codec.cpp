@@ -3,7 +3,6 @@
 #include <lz4.h>
 #include <zlib.h>
 
-#include <bit>
 #include <cstring>
 
 #include "sim/core/errors.hpp"
@@ -19,7 +18,8 @@ std::vector<char> lz4(std::span<const std::byte> in, std::vector<char>& scratch)
   scratch.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(in.size()))));
   const int bytes = LZ4_compress_fast(reinterpret_cast<const char*>(in.data()), scratch.data(),
                                       static_cast<int>(in.size()), static_cast<int>(scratch.size()), 1);
-  if (bytes <= 0) throw IoFailure("LZ4 could not compress a block of " + std::to_string(in.size()) + " bytes");
+  if (bytes <= 0)
+    throw IoFailure("LZ4 could not compress a block of " + std::to_string(in.size()) + " bytes");
   return {scratch.begin(), scratch.begin() + bytes};
 }
 
@@ -63,8 +63,8 @@ CompressedBytes compress_blocks(std::uint64_t total_bytes, std::uint64_t block_b
   std::vector<char> scratch;
   const std::vector<std::byte> zeros(block_bytes);
   const Block zero_block = compress(zeros, compression, scratch);
-  const Block last_zero_block =
-      out.last_bytes == block_bytes ? zero_block
+  const Block last_zero_block = out.last_bytes == block_bytes
+                                    ? zero_block
                                     : compress(std::span(zeros).first(out.last_bytes), compression, scratch);
 
   parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
@@ -87,14 +87,6 @@ CompressedBytes compress_bytes(std::span<const std::byte> bytes, Compression com
     std::memcpy(out.data(), bytes.data() + block * kBlock, out.size());
     return true;
   });
-}
-
-float round_mantissa(float x) {
-  constexpr std::uint32_t kDropped = 23 - 10, kHalf = 1u << (kDropped - 1), kMask = (1u << kDropped) - 1;
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
-  if ((bits & 0x7F800000u) == 0x7F800000u) return x;
-  const std::uint32_t odd = (bits >> kDropped) & 1u;
-  return std::bit_cast<float>((bits + kHalf - 1 + odd) & ~kMask);
 }
 
 }  // namespace witherfield::vis

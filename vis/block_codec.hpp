@@ -1,6 +1,7 @@
-// The compressed blocks of VTK's XML formats: an array's bytes are cut into blocks of equal size (the last may be
-// shorter), each compressed on its own. Blocks of zeros are all alike and are compressed once.
+// The compressed blocks of VTK's XML formats: an array's bytes are cut into blocks of equal size (the last
+// may be shorter), each compressed on its own. Blocks of zeros are all alike and are compressed once.
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -26,8 +27,8 @@ struct CompressedBytes {
   std::uint64_t stored_bytes() const;
 };
 
-/// Writes the bytes of block `index` to `out` (which holds anything). Returns false, and may leave `out` as it
-/// is, when the block is all zeros. Called from several threads at once.
+/// Writes the bytes of block `index` to `out` (which holds anything). Returns false, and may leave `out` as
+/// it is, when the block is all zeros. Called from several threads at once.
 using BlockFill = std::function<bool(std::size_t index, std::span<std::byte> out)>;
 
 /// @pre block_bytes > 0. Same bytes for any thread count.
@@ -37,7 +38,14 @@ CompressedBytes compress_blocks(std::uint64_t total_bytes, std::uint64_t block_b
 /// Bytes that lie in memory already.
 CompressedBytes compress_bytes(std::span<const std::byte> bytes, Compression compression);
 
-/// x rounded to nearest even with 10 bits of mantissa kept: relative error at most 2^-11. Infinities and NaN stay.
-float round_mantissa(float x);
+/// x rounded to nearest even with 10 bits of mantissa kept: relative error at most 2^-11. Infinities and NaN
+/// stay.
+inline float round_mantissa(float x) {
+  constexpr std::uint32_t kDropped = 23 - 10, kHalf = 1u << (kDropped - 1), kMask = (1u << kDropped) - 1;
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+  if ((bits & 0x7F800000u) == 0x7F800000u) return x;
+  const std::uint32_t odd = (bits >> kDropped) & 1u;
+  return std::bit_cast<float>((bits + kHalf - 1 + odd) & ~kMask);
+}
 
 }  // namespace witherfield::vis

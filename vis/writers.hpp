@@ -1,5 +1,6 @@
-// Simulation data -> VTK files that ParaView opens as they are (names, units: docs/formats.md). VTK is included nowhere but in .cpp files.
-// Files are written under a temporary name in the same folder and renamed when whole: a failed write leaves nothing.
+// Simulation data -> VTK files that ParaView opens as they are (names, units: docs/formats.md). VTK is
+// included nowhere but in .cpp files. Files are written under a temporary name in the same folder and renamed
+// when whole: a failed write leaves nothing.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -17,35 +18,45 @@ namespace witherfield::vis {
 enum class Compression { lz4, zlib };
 
 /// Time and weathering of a file (FieldData TimeValue, wd, length_unit).
-struct Stamp { double time_days = 0, wd = 0; };
+struct Stamp {
+  double time_days = 0, wd = 0;
+};
 
 /// Min and max of one component-wise array over the voxels / points that hold something.
-struct ValueRange { double lo = 0, hi = 0; };
+struct ValueRange {
+  double lo = 0, hi = 0;
+};
 using ValueRanges = std::map<std::string, ValueRange>;
 void merge_ranges(ValueRanges& into, const ValueRanges& from);
 
 /// Box of voxels to write: [lo, hi).
-struct VoxelBox { glm::ivec3 lo{0}, hi{0}; };
+struct VoxelBox {
+  glm::ivec3 lo{0}, hi{0};
+};
 
-/// Writes the texel fields (optics = false) or the optics (optics = true; density in both) as .vti: appended raw, UInt64 header,
-/// compressed, float32 rounded to 10 mantissa bits, cropped to `box` (of the run's union), geometry in millimetres, attributes bled one voxel
-/// outward (density not). Never makes a dense copy: compressed blocks that hold no grass are all alike.
-/// Voxels are point data at the voxel centres. Returns the ranges of the arrays over voxels with density > 0.
+/// Writes the texel fields (optics = false) or the optics (optics = true; density in both) as .vti: appended
+/// raw, UInt64 header, compressed, float32 rounded to 10 mantissa bits, cropped to `box` (of the run's
+/// union), geometry in millimetres, attributes bled one voxel outward (density not). Never makes a dense
+/// copy: compressed blocks that hold no grass are all alike. Voxels are point data at the voxel centres.
+/// Returns the ranges of the arrays over voxels with density > 0.
 /// @throws IoFailure naming the file (cannot create, disk full).
-ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelGrid& grid, const VoxelBox& box, bool optics, const Stamp& stamp,
-                            Compression compression = Compression::lz4);
+ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelGrid& grid, const VoxelBox& box,
+                            bool optics, const Stamp& stamp, Compression compression = Compression::lz4);
 
 /// All point fields plus mass_kg, velocity_m_s, radius_m (scalar), as vertices, millimetres.
-ValueRanges write_points_vtp(const std::filesystem::path& file, const PointSet& points, const Stamp& stamp, Compression compression = Compression::lz4);
+ValueRanges write_points_vtp(const std::filesystem::path& file, const PointSet& points, const Stamp& stamp,
+                             Compression compression = Compression::lz4);
 
-/// Terrain triangles in metres with elevation_m, texel_id, rotation (quarter turns; negative = mirrored: -1 - turns), lod per cell.
-/// true_elevation_m has one value per vertex.
-void write_terrain_vtp(const std::filesystem::path& file, const TriMesh& mesh, const std::vector<double>& true_elevation_m, const Placement& placement);
+/// Terrain triangles in metres with elevation_m, texel_id, rotation (quarter turns; negative = mirrored: -1 -
+/// turns), lod per cell. true_elevation_m has one value per vertex.
+void write_terrain_vtp(const std::filesystem::path& file, const TriMesh& mesh,
+                       const std::vector<double>& true_elevation_m, const Placement& placement);
 
 /// .pvd time series. Entries are (days, path relative to the .pvd).
 void write_pvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& entries);
 
-/// A ParaView start-up script (Python) that opens the series, fixes the colour scales to `ranges`, shows water with units, day and wd.
+/// A ParaView start-up script (Python) that opens the series, fixes the colour scales to `ranges`, shows
+/// water with units, day and wd.
 void write_paraview_script(const std::filesystem::path& file, const ValueRanges& ranges, bool has_terrain);
 
 }  // namespace witherfield::vis

@@ -1,7 +1,8 @@
 #include "vis/xml_document.hpp"
 
+#include <fmt/format.h>
+
 #include <bit>
-#include <charconv>
 #include <string>
 
 #include "sim/core/fields.hpp"
@@ -19,14 +20,16 @@ const char* compressor(Compression c) {
 std::string field_data(const XmlDocument& d) {
   std::string xml = "    <FieldData>\n";
   for (const auto& [name, value] : d.numbers)
-    xml += "      <DataArray type=\"Float64\" Name=\"" + name + "\" NumberOfTuples=\"1\" format=\"ascii\">" +
-           number_text(value) + "</DataArray>\n";
+    xml += fmt::format(
+        "      <DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">{}</DataArray>\n",
+        name, value);
   for (const auto& [name, strings] : d.texts) {
+    xml += fmt::format("      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
+                       name, strings.size());
     // VTK stores strings as the codes of their characters, each string ended by a zero.
-    xml += "      <Array type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(strings.size()) +
-           "\" format=\"ascii\">";
     for (const std::string& s : strings) {
-      for (unsigned char c : s) xml += std::to_string(int(c)) + " ";
+      for (unsigned char c : s) xml += fmt::format("{} ", int(c));
       xml += "0 ";
     }
     xml += "</Array>\n";
@@ -35,21 +38,25 @@ std::string field_data(const XmlDocument& d) {
 }
 
 std::string head(const XmlDocument& d) {
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + d.type +
-                    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"" +
-                    compressor(d.compression) + "\">\n  <" + d.type + d.type_attributes + ">\n" + field_data(d) +
-                    "    <Piece" + d.piece_attributes + ">\n";
+  std::string xml = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+      "compressor=\"{1}\">\n"
+      "  <{0}{2}>\n{3}    <Piece{4}>\n",
+      d.type, compressor(d.compression), d.type_attributes, field_data(d), d.piece_attributes);
   std::uint64_t offset = 0;
   for (const XmlSection& section : d.sections) {
-    xml += "      <" + section.tag + ">\n";
+    xml += fmt::format("      <{}>\n", section.tag);
     for (const XmlArray& a : section.arrays) {
-      xml += "        <DataArray type=\"" + a.type + "\" Name=\"" + a.name + "\" NumberOfComponents=\"" +
-             std::to_string(a.components) + "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+      xml += fmt::format(
+          "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+          "offset=\"{}\"/>\n",
+          a.type, a.name, a.components, offset);
       offset += a.data.stored_bytes();
     }
-    xml += "      </" + section.tag + ">\n";
+    xml += fmt::format("      </{}>\n", section.tag);
   }
-  return xml + "    </Piece>\n  </" + d.type + ">\n  <AppendedData encoding=\"raw\">\n   _";
+  return xml + fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n   _", d.type);
 }
 
 }  // namespace
@@ -80,12 +87,6 @@ void write_xml_document(const std::filesystem::path& file, const XmlDocument& do
     }
   out.write("\n  </AppendedData>\n</VTKFile>\n");
   out.commit();
-}
-
-std::string number_text(double x) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, x);
-  return {text, end.ptr};
 }
 
 }  // namespace witherfield::vis

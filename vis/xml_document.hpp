@@ -1,5 +1,6 @@
 // VTK XML files ("serial" .vti and .vtp) with appended raw data, as written by this project. No VTK involved.
-// Format: VTK file formats (VTK User's Guide, "XML file formats"): version 1.0, header_type UInt64, little-endian.
+// Format: VTK file formats (VTK User's Guide, "XML file formats"): version 1.0, header_type UInt64,
+// little-endian.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -30,20 +31,18 @@ struct XmlDocument {
   std::string type_attributes;  ///< of the data set element
   std::string piece_attributes;
   Compression compression = Compression::lz4;
-  std::vector<std::pair<std::string, double>> numbers;                ///< FieldData, Float64, one value each
+  std::vector<std::pair<std::string, double>> numbers;  ///< FieldData, Float64, one value each
   std::vector<std::pair<std::string, std::vector<std::string>>> texts;  ///< FieldData, strings
   std::vector<XmlSection> sections;
 };
 
-/// FieldData that every file of a series carries: TimeValue and wd; then length_unit and units ("name=unit" of each
-/// array of the document that has been declared in sim/core/fields.hpp). Call when all sections are there.
+/// FieldData that every file of a series carries: TimeValue and wd; then length_unit and units ("name=unit"
+/// of each array of the document that has been declared in sim/core/fields.hpp). Call when all sections are
+/// there.
 void add_stamp(XmlDocument& document, const Stamp& stamp);
 void add_units(XmlDocument& document, const std::string& length_unit);
 
 /// @throws IoFailure naming the file; then nothing is left of it.
 void write_xml_document(const std::filesystem::path& file, const XmlDocument& document);
-
-/// Shortest text that reads back as the same number, whatever the locale.
-std::string number_text(double x);
 
 }  // namespace witherfield::vis

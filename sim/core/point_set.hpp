@@ -21,6 +21,7 @@ struct PointSet {
   std::vector<std::int32_t> blade_id;
   std::vector<float> arc;            ///< 0 root .. 1 tip of the blade
   std::vector<glm::vec3> offset;     ///< from the blade's centre line, in its frame at wd = 0 (side, normal, tangent), metres
+  std::vector<glm::vec3> normal_local;  ///< the normal in that frame; unit, or zero
   std::vector<std::uint8_t> tissue;  ///< 1 vein, 2 mesophyll
   // --- material
   std::vector<float> water, chlorophyll_ug_cm2, stress_vein_MPa, stress_mesophyll_MPa, strain_shrink, specular;
@@ -29,7 +30,7 @@ struct PointSet {
   std::size_t size() const { return position_m.size(); }
   void resize(std::size_t n) {
     position_m.resize(n); velocity_m_s.resize(n); mass_kg.resize(n); normal.resize(n); tangent.resize(n);
-    blade_id.resize(n); arc.resize(n); offset.resize(n); tissue.resize(n);
+    blade_id.resize(n); arc.resize(n); offset.resize(n); normal_local.resize(n); tissue.resize(n);
     water.resize(n); chlorophyll_ug_cm2.resize(n); stress_vein_MPa.resize(n); stress_mesophyll_MPa.resize(n);
     strain_shrink.resize(n); specular.resize(n); diffuse.resize(n);
   }

@@ -1,6 +1,7 @@
 // What a picture shows: camera, sun, size. Shared by the scene file (which fills it) and the picture writers.
 #pragma once
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct Camera {
   double fov_deg = 45;             ///< horizontal, 5..120
   double aperture_m = 0;           ///< > 0 gives depth of field (blades look only)
   double focus_m = 0;              ///< distance of sharpness; 0 = distance to look_at
+  /// If set, position_m.z is to be replaced by the terrain's height below the camera plus this (done once the terrain is known).
+  std::optional<double> height_above_ground_m;
 };
 
 struct Sun {

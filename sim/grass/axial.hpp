@@ -18,7 +18,7 @@ namespace witherfield::grass {
 /// range of float.
 inline glm::vec3 principal_axis(const float m[6], glm::vec3 guess) {
   const float trace = m[0] + m[3] + m[5];
-  const float scale = 1.0f / (trace > 0.0f ? trace : 1.0f);
+  const float scale = 1.0f / (trace > 1e-36f ? trace : 1.0f);
   float xx = m[0] * scale, xy = m[1] * scale, xz = m[2] * scale, yy = m[3] * scale, yz = m[4] * scale,
         zz = m[5] * scale;
   for (int squaring = 0; squaring < 4; ++squaring) {

@@ -35,6 +35,8 @@ class BladeModel {
       // Flat strip plus what the V fold adds: two inclined halves about their common centroid.
       inertia_.push_back(form_ == BladeForm::cone ? 3.141592653589793 * w * w * w * w / 64
                                                   : w * t * t * t / 12 + t * w * w * w * std::sin(fold) * std::sin(fold) / 48);
+      // The modulus falls from foot to tip (Balsamo et al. 2006); the blade's mean, in the logarithm, stays what the options say.
+      inertia_.back() *= std::pow(tissue.base_to_tip_stiffness, 0.5 - s);
     }
   }
 
@@ -107,7 +109,7 @@ class BladeModel {
       weight += force;
       moment_about_origin += force * 0.5 * (r[i] + r[i + 1]);
       const double stiffness = bending_modulus_MPa(*tissue_, w) * 1e6 * inertia_[i];
-      out[i] = (moment_about_origin - weight * r[i]) / stiffness;
+      if (k > 0) out[i] = (moment_about_origin - weight * r[i]) / stiffness;  // the sheath holds the foot
     }
     return out;
   }

@@ -66,6 +66,7 @@ void validate(const TissueOptions& t) {
     require(at + name, value, 0.01, 1e5, "MPa");
   if (t.modulus_vein_dry_MPa <= t.modulus_vein_fresh_MPa || t.modulus_mesophyll_dry_MPa <= t.modulus_mesophyll_fresh_MPa)
     throw InvalidInput("model: the moduli must grow as the blade dries (modulus_*_dry_MPa > modulus_*_fresh_MPa)");
+  require(at + "base_to_tip_stiffness", t.base_to_tip_stiffness, 1, 100);
   require(at + "osmotic_potential_MPa", t.osmotic_potential_MPa, -5, -0.1, "MPa");
   require(at + "wall_elasticity_MPa", t.wall_elasticity_MPa, 1, 50, "MPa");
   require(at + "density_kg_m3", t.density_kg_m3, 100, 1500, "kg/m3");

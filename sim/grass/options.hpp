@@ -66,6 +66,7 @@ struct TissueOptions {
   double modulus_vein_fresh_MPa = 500, modulus_vein_dry_MPa = 900;        ///< E_v > E_m (the paper prints the opposite: facts d.5)
   double modulus_mesophyll_fresh_MPa = 10, modulus_mesophyll_dry_MPa = 60;
   double bending_fresh_MPa = 300, bending_limp_MPa = 40, bending_dry_MPa = 600;  ///< whole blade, axial
+  double base_to_tip_stiffness = 12;     ///< modulus at the foot over that at the tip, falling exponentially, 1..100 (Balsamo et al. 2006: falls from base to tip)
   double osmotic_potential_MPa = -1.2;   ///< pi_0 at full turgor, -5..-0.1
   double wall_elasticity_MPa = 8;        ///< epsilon, 1..50
   double density_kg_m3 = 850;            ///< fresh tissue, 100..1500

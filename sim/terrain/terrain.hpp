@@ -22,7 +22,7 @@ struct TerrainOptions {
   double vertical_exaggeration = 1;  ///< on top of the horizontal scale, 0.01..100
 };
 
-/// A terrain in scene coordinates: x in [0, width], y in [0, depth], z >= 0 up (lowest point at 0).
+/// A terrain in scene coordinates (a DEM spans from the centre of its first cell to that of its last): x in [0, width], y in [0, depth], z >= 0 up (lowest point at 0).
 class Terrain {
  public:
   double width_m() const; double depth_m() const;
@@ -31,10 +31,11 @@ class Terrain {
   double max_height_m() const;
   double true_elevation_m(double x_m, double y_m) const;///< metres above the DEM's datum, unscaled
   double horizontal_scale() const;                      ///< scene metres per true metre
+  double cell_m() const;                                ///< spacing of the DEM's samples (mesh: size of a triangle) in the scene
   /// 1 where the sun's ray meets no terrain, 0 in shadow, soft by the sun's half-degree and the cell size in between.
   double sun_visibility(const glm::dvec3& point_m, const glm::dvec3& to_sun) const;
 
-  struct Data;                                          // defined in terrain.cpp
+  struct Data;                                          // defined in terrain_data.hpp
   explicit Terrain(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
  private:

@@ -1,0 +1,18 @@
+// Scene radiance -> display: exposure, a filmic curve, sRGB levels.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "pov/hdr.hpp"
+
+namespace witherfield::pov {
+
+/// Filmic curve in a wide working space: ACES reference rendering and sRGB display transform as fitted by S. Hill (2015).
+/// Linear sRGB in, display-linear [0, 1] out. Greys stay grey; monotone in exposure.
+glm::dvec3 tone_map(const glm::dvec3& linear);
+
+/// 8-bit sRGB, 3 bytes a pixel, row by row from the top; dithered by half a level so that skies do not band.
+std::vector<std::uint8_t> develop(const HdrImage& image, double exposure);
+
+}  // namespace witherfield::pov

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include "sim/scene/key_writers.hpp"
+
+namespace witherfield::scene {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+template <class Items, class ToText>
+std::string bracketed(const Items& items, const ToText& to_text) {
+  std::string text = "[";
+  for (const auto& item : items) text += (text.size() > 1 ? ", " : "") + to_text(item);
+  return text + "]";
+}
+
+class Printer : public KeyVisitor {
+ public:
+  Printer(std::string& out, bool commented) : out_(out), margin_(commented ? "# " : "") {}
+
+  void number(const Key& key, double& value, const Limits& limits) override {
+    line(key, limits_text(limits), number_text(value));
+  }
+  void optional_number(const Key& key, std::optional<double>& value, const Limits& limits) override {
+    line(key, limits_text(limits), number_text(value.value_or(limits.hi)), !value);
+  }
+  void whole(const Key& key, int& value, const Limits& limits) override {
+    line(key, limits_text(limits), std::to_string(value));
+  }
+  void seed(const Key& key, std::uint64_t& value) override { line(key, "", std::to_string(value)); }
+  void flag(const Key& key, bool& value) override { line(key, "true or false", value ? "true" : "false"); }
+  void text(const Key& key, std::string& value, const Choices& allowed) override {
+    line(key, quoted_list(allowed, "or"), quoted(value));
+  }
+  void texts(const Key& key, std::vector<std::string>& value, const Choices& allowed) override {
+    line(key, "any of " + quoted_list(allowed, "and"), bracketed(value, quoted));
+  }
+  void numbers(const Key& key, std::span<double> values, const Limits& limits, Order) override {
+    line(key, limits_text(limits), bracketed(values, number_text));
+  }
+  void wholes(const Key& key, std::span<int> values, const Limits& limits) override {
+    line(key, limits_text(limits), bracketed(values, [](int v) { return std::to_string(v); }));
+  }
+  void list(const Key& key, std::vector<double>& values, const Limits& limits, Order) override {
+    line(key, limits_text(limits), bracketed(values, number_text));
+  }
+  void curve(const Key& key, CurveKeys& keys, const Limits& limits, Shape shape) override {
+    line(key, limits_text(limits) + (shape == Shape::falling ? ", not rising" : ", not falling"),
+         bracketed(keys, [](const auto& k) { return fmt::format("[{}, {}]", k.first, k.second); }));
+  }
+  void preset(const Key& key, const Choices& names, std::string_view preset,
+              const std::function<void(const std::string&)>&) override {
+    line(key, quoted_list(names, "or"), quoted(preset.empty() ? names.front() : std::string(preset)),
+         preset.empty());
+  }
+  void table(const Key& key, const Body& body) override { print_table(key, "[", "]", false, body); }
+  void optional_table(const Key& key, bool, const std::function<void()>&, const Body& body) override {
+    print_table(key, "[", "]", true, body);
+  }
+  void tables(const Key& key, std::size_t present, const std::function<void(std::size_t)>&,
+              const std::function<void(KeyVisitor&, std::size_t)>& body) override {
+    for (std::size_t i = 0; i < present; ++i)
+      print_table(key, "[[", "]]", true, [&](KeyVisitor& v) { body(v, i); });
+  }
+  void check(std::string_view, bool, const std::function<std::string()>&) override {}
+
+ private:
+  void line(const Key& key, const std::string& range, const std::string& value, bool commented = false) {
+    out_ += fmt::format("{}# {}{}\n", margin_, key.doc, range.empty() ? "." : " (" + range + ").");
+    out_ += fmt::format("{}{}{} = {}\n", margin_, commented ? "# " : "", key.name, value);
+  }
+  void print_table(const Key& key, const char* open, const char* close, bool commented, const Body& body) {
+    const std::string margin = commented ? "# " : margin_;
+    out_ += fmt::format("\n{}# {}.\n{}{}{}{}\n", margin, key.doc, margin, open, key.name, close);
+    Printer inner(out_, commented);
+    body(inner);
+  }
+
+  std::string& out_;
+  std::string margin_;
+};
+
+}  // namespace
+
+std::string commented_toml(const KeyVisitor::Body& describe) {
+  std::string out;
+  Printer printer(out, false);
+  describe(printer);
+  return out;
+}
+
+}  // namespace witherfield::scene
