@@ -182,8 +182,8 @@ const std::vector<DomeSample>& sky_dome() {
         d.push_back({{std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el)}, weight / count});
       }
     };
-    ring(5, 55, 0.38, 0.0);
-    ring(6, 25, 0.52, 0.3);
+    ring(4, 55, 0.38, 0.5);
+    ring(8, 25, 0.52, 0.5);
     return d;
   }();
   return dome;

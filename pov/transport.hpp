@@ -42,7 +42,8 @@ class OpticalDepth {
   std::vector<float> depth_;
 };
 
-/// A coarse dome of sky: 12 directions, weights sum to 1 (solid angle, for receivers of any orientation).
+/// A coarse dome of sky: 13 directions, weights sum to 1 (solid angle, for receivers of any orientation). The set maps onto itself
+/// under quarter turns and mirroring, so that one sky field serves a texel in all its eight orientations.
 struct DomeSample {
   glm::dvec3 direction;
   double weight;

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "sim/core/parallel.hpp"
+#include "vis/block_codec.hpp"
 
 namespace witherfield::vis {
 namespace {
@@ -31,102 +32,170 @@ constexpr std::array<PaddedVoxel, kPadded> kPaddedVoxels = [] {
   return table;
 }();
 
+/// Voxels of a brick that touch the brick in the middle, for each of the 27.
+constexpr std::array<std::uint64_t, 27> kTouching = [] {
+  std::array<std::uint64_t, 27> masks{};
+  for (const PaddedVoxel v : kPaddedVoxels) masks[v.brick] |= std::uint64_t(1) << v.local;
+  return masks;
+}();
+
 constexpr float kNoDensity[kVoxels] = {};
 
-/// A key orders voxels by density (to 15 bits of mantissa), then by position: of equally dense ones the first
-/// in the grid's order wins. The bits of positive floats are ordered as the numbers are. 0 = empty.
-std::int32_t key_of(float density, int padded) {
-  return density > 0
-             ? std::int32_t((std::bit_cast<std::uint32_t>(density) & ~0xFFu) | std::uint32_t(255 - padded))
-             : 0;
+/// Labels are kept as they are: rounding would merge neighbouring blade ids above 2048.
+bool is_label(TexelChannel c) {
+  return c == TexelChannel::blade_id || c == TexelChannel::tissue;
 }
 
-void gather_keys(const float* const (&density)[27], std::int32_t (&key)[kPadded]) {
+// Keys order voxels by density (to 15 bits of mantissa), then by position: of equally dense ones the first in
+// the grid's order wins. The low 8 bits of a density's pattern are replaced by 255 - position; the bits of
+// positive floats are ordered as the numbers are, so keys are compared as floats. 0 = empty.
+int position_of(float key) {
+  return 255 - static_cast<int>(std::bit_cast<std::uint32_t>(key) & 0xFFu);
+}
+
+float larger(float a, float b) {
+  return a > b ? a : b;
+}  // one instruction, four at a time
+
+void gather_keys(const float* const (&density)[27], float (&key)[kPadded]) {
   for (int row = 0; row < kPad * kPad; ++row) {
     const PaddedVoxel first =
         kPaddedVoxels[std::size_t(row * kPad)];  // last voxel of its row, in the brick at -x
-    const float *left = density[first.brick] + first.local, *own = density[first.brick + 1] + first.local - 3,
-                *right = density[first.brick + 2] + first.local - 3;
-    const int p = row * kPad;
-    key[p] = key_of(*left, p);
-    for (int x = 0; x < kEdge; ++x) key[p + 1 + x] = key_of(own[x], p + 1 + x);
-    key[p + kPad - 1] = key_of(*right, p + kPad - 1);
+    float* k = key + row * kPad;
+    k[0] = density[first.brick][first.local];
+    std::copy_n(density[first.brick + 1] + first.local - 3, kEdge, k + 1);
+    k[kPad - 1] = density[first.brick + 2][first.local - 3];
+  }
+  for (int p = 0; p < kPadded; ++p) {
+    const std::uint32_t bits = (std::bit_cast<std::uint32_t>(key[p]) & ~0xFFu) | std::uint32_t(255 - p);
+    key[p] = std::bit_cast<float>(key[p] > 0 ? bits : 0u);
   }
 }
 
 /// Largest key among the 27 voxels around each of the brick's 64: maxima along x, then y, then z.
-void largest_around(const std::int32_t (&key)[kPadded], std::int32_t (&best)[kVoxels]) {
-  std::int32_t along_x[kPad * kPad * kEdge], along_xy[kPad * kEdge * kEdge];
+void largest_around(const float (&key)[kPadded], float (&best)[kVoxels]) {
+  constexpr int kRow = kEdge, kPlane = kEdge * kEdge;
+  float along_x[kPad * kPad * kRow], along_xy[kPad * kPlane];
   for (int row = 0; row < kPad * kPad; ++row)
     for (int x = 0; x < kEdge; ++x) {
-      const std::int32_t* k = key + row * kPad + x;
-      along_x[row * kEdge + x] = std::max(std::max(k[0], k[1]), k[2]);
+      const float* k = key + row * kPad + x;
+      along_x[row * kRow + x] = larger(larger(k[0], k[1]), k[2]);
     }
-  for (int z = 0; z < kPad; ++z)
-    for (int i = 0; i < kEdge * kEdge; ++i) {
-      const std::int32_t* k = along_x + z * kPad * kEdge + i;
-      along_xy[z * kEdge * kEdge + i] = std::max(std::max(k[0], k[kEdge]), k[2 * kEdge]);
-    }
+  for (int z = 0; z < kPad; ++z) {
+    const float* k = along_x + z * kPad * kRow;
+    for (int i = 0; i < kPlane; ++i)
+      along_xy[z * kPlane + i] = larger(larger(k[i], k[i + kRow]), k[i + 2 * kRow]);
+  }
   for (int i = 0; i < kVoxels; ++i)
-    best[i] = std::max(std::max(along_xy[i], along_xy[i + kEdge * kEdge]), along_xy[i + 2 * kEdge * kEdge]);
+    best[i] = larger(larger(along_xy[i], along_xy[i + kPlane]), along_xy[i + 2 * kPlane]);
 }
 
 /// Appends the brick at `cell` to the layer unless it stays empty.
-void add_brick(const TexelGrid& grid, glm::ivec3 cell, BleedMap::Layer& layer) {
+void add_brick(const PackedVoxels& voxels, glm::ivec3 cell, BleedMap::Layer& layer) {
+  const TexelGrid& grid = voxels.grid();
   int brick[27];
   const float* density[27];
+  std::uint64_t touching = 0;
   for (int n = 0; n < 27; ++n) {
     const int x = cell.x + n % 3 - 1, y = cell.y + n / 3 % 3 - 1, z = cell.z + n / 9 - 1;
     const bool inside =
         x >= 0 && y >= 0 && z >= 0 && x < grid.bricks_x() && y < grid.bricks_y() && z < grid.bricks_z();
     brick[n] = inside ? grid.brick_at((z * grid.bricks_y() + y) * grid.bricks_x() + x) : -1;
-    density[n] = brick[n] >= 0 ? grid.channel(brick[n], TexelChannel::density) : kNoDensity;
+    density[n] = brick[n] >= 0 ? voxels.density(brick[n]) : kNoDensity;
+    if (brick[n] >= 0) touching |= voxels.mask(brick[n]) & kTouching[std::size_t(n)];
   }
-  std::int32_t key[kPadded], best[kVoxels];
+  if (!touching) return;
+  float key[kPadded], best[kVoxels];
   gather_keys(density, key);
   largest_around(key, best);
 
-  const float* own = density[13];
+  const std::uint64_t filled = brick[13] >= 0 ? voxels.mask(brick[13]) : 0;
   BleedMap::Brick out{cell.x, static_cast<std::uint32_t>(layer.codes.size()), 0};
-  for (int v = 0; v < kVoxels; ++v) {
-    if (!best[v]) continue;
-    out.mask |= std::uint64_t(1) << v;
-    if (own[v] > 0) {
-      layer.codes.push_back(brick[13] * kVoxels + v);
+  for (int v = 0; v < kVoxels; ++v) out.mask |= std::uint64_t(best[v] != 0) << v;
+  for (std::uint64_t bits = out.mask; bits; bits &= bits - 1) {
+    const int v = std::countr_zero(bits);
+    if (filled >> v & 1) {
+      layer.codes.push_back(static_cast<std::int32_t>(voxels.number(brick[13], v)));
     } else {
-      const PaddedVoxel source = kPaddedVoxels[std::size_t(255 - (best[v] & 0xFF))];
-      layer.codes.push_back(~(brick[source.brick] * kVoxels + source.local));
+      const PaddedVoxel source = kPaddedVoxels[std::size_t(position_of(best[v]))];
+      layer.codes.push_back(~static_cast<std::int32_t>(voxels.number(brick[source.brick], source.local)));
     }
   }
-  if (out.mask) layer.bricks.push_back(out);
+  layer.bricks.push_back(out);
+}
+
+/// Marks the bricks of row (by, bz) that have a brick among their 26 neighbours or are one; near[bx + 1].
+bool mark_near(const TexelGrid& grid, const std::vector<std::int32_t>& in_row, int by, int bz,
+               std::vector<std::uint8_t>& near) {
+  const int nx = grid.bricks_x(), ny = grid.bricks_y(), nz = grid.bricks_z();
+  std::fill(near.begin(), near.end(), std::uint8_t{0});
+  bool any = false;
+  for (int z = std::max(bz - 1, 0); z <= std::min(bz + 1, nz - 1); ++z)
+    for (int y = std::max(by - 1, 0); y <= std::min(by + 1, ny - 1); ++y) {
+      if (!in_row[std::size_t(z * ny + y)]) continue;
+      any = true;
+      for (int x = 0; x < nx; ++x)
+        if (grid.brick_at((z * ny + y) * nx + x) >= 0) std::fill_n(near.begin() + x, 3, std::uint8_t{1});
+    }
+  return any;
 }
 
 }  // namespace
 
-BleedMap::BleedMap(const TexelGrid& grid) : layers_(static_cast<std::size_t>(grid.bricks_z())) {
-  const int nx = grid.bricks_x(), ny = grid.bricks_y(), nz = grid.bricks_z();
+PackedVoxels::PackedVoxels(const TexelGrid& grid)
+    : grid_(&grid),
+      mask_(static_cast<std::size_t>(grid.brick_count())),
+      first_(mask_.size() + 1, 0),
+      density_(mask_.size() * kVoxels) {
+  parallel_for(mask_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const float* from = grid.channel(static_cast<int>(b), TexelChannel::density);
+      std::copy_n(from, kVoxels, density_.data() + b * kVoxels);
+      for (int v = 0; v < kVoxels; ++v) mask_[b] |= std::uint64_t(from[v] > 0) << v;
+    }
+  });
+  for (std::size_t b = 0; b < mask_.size(); ++b)
+    first_[b + 1] = first_[b] + static_cast<std::uint32_t>(std::popcount(mask_[b]));
+}
+
+std::uint32_t PackedVoxels::number(int brick, int voxel) const {
+  const std::uint64_t before = mask_[std::size_t(brick)] & ((std::uint64_t(1) << voxel) - 1);
+  return first_[std::size_t(brick)] + static_cast<std::uint32_t>(std::popcount(before));
+}
+
+std::vector<std::vector<float>> PackedVoxels::values(std::span<const TexelChannel> channels) const {
+  std::vector<std::vector<float>> out(channels.size(), std::vector<float>(count()));
+  parallel_for(mask_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        const float* from = grid_->channel(static_cast<int>(b), channels[c]);
+        const bool rounded = !is_label(channels[c]);
+        float* to = out[c].data() + first_[b];
+        for (std::uint64_t bits = mask_[b]; bits; bits &= bits - 1) {
+          const float value = from[std::countr_zero(bits)];
+          *to++ = rounded ? round_mantissa(value) : value;
+        }
+      }
+  });
+  return out;
+}
+
+BleedMap::BleedMap(const PackedVoxels& voxels) : layers_(static_cast<std::size_t>(voxels.grid().bricks_z())) {
+  const TexelGrid& grid = voxels.grid();
+  const int nx = grid.bricks_x(), ny = grid.bricks_y();
   // Bricks per row of bricks: rows with nothing around them are passed over.
-  std::vector<std::int32_t> in_row(std::size_t(ny) * std::size_t(nz), 0);
+  std::vector<std::int32_t> in_row(std::size_t(ny) * layers_.size(), 0);
   for (int b = 0; b < grid.brick_count(); ++b) ++in_row[std::size_t(grid.brick_cell(b) / nx)];
 
   parallel_for(layers_.size(), 1, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint8_t> near(std::size_t(nx) + 2);
-    for (int bz = static_cast<int>(begin); bz < static_cast<int>(end); ++bz) {
-      Layer& layer = layers_[std::size_t(bz)];
+    for (std::size_t bz = begin; bz < end; ++bz) {
+      Layer& layer = layers_[bz];
       layer.row_start.assign(1, 0);
       for (int by = 0; by < ny; ++by) {
-        std::fill(near.begin(), near.end(), std::uint8_t{0});
-        bool any = false;
-        for (int z = std::max(bz - 1, 0); z <= std::min(bz + 1, nz - 1); ++z)
-          for (int y = std::max(by - 1, 0); y <= std::min(by + 1, ny - 1); ++y) {
-            if (!in_row[std::size_t(z * ny + y)]) continue;
-            any = true;
-            for (int x = 0; x < nx; ++x)
-              if (grid.brick_at((z * ny + y) * nx + x) >= 0)
-                near[std::size_t(x)] = near[std::size_t(x) + 1] = near[std::size_t(x) + 2] = 1;
-          }
-        for (int bx = 0; any && bx < nx; ++bx)
-          if (near[std::size_t(bx) + 1]) add_brick(grid, {bx, by, bz}, layer);
+        if (mark_near(grid, in_row, by, static_cast<int>(bz), near))
+          for (int bx = 0; bx < nx; ++bx)
+            if (near[std::size_t(bx) + 1]) add_brick(voxels, {bx, by, static_cast<int>(bz)}, layer);
         layer.row_start.push_back(static_cast<std::uint32_t>(layer.bricks.size()));
       }
     }

@@ -1,7 +1,8 @@
-// Which voxels a texel file fills, and from where: every voxel with density > 0 from itself, and every empty
-// voxel that touches one (26 neighbours) from the densest of them. Attributes of empty voxels would be 0
-// otherwise, and interpolation between a blade and the air would show a false dry rim. One rule for all
-// attributes: nothing is blended, so that blade ids, tissues and axial directions stay meaningful.
+// What a texel file holds where. Filled voxels (density > 0) are packed into plain arrays, brick by brick;
+// every empty voxel that touches a filled one (26 neighbours) takes its attributes from the densest of them,
+// because attributes of empty voxels would be 0 otherwise and interpolation between blade and air would show
+// a false dry rim. One rule for all attributes: nothing is blended, so that blade ids, tissues and axial
+// directions stay meaningful.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -11,13 +12,37 @@
 
 namespace witherfield::vis {
 
+/// The filled voxels of a grid, numbered brick by brick. The grid's own layout (all channels of a brick
+/// together) would touch a new page of memory for every brick and field; the packed arrays are small and read
+/// in order.
+class PackedVoxels {
+ public:
+  explicit PackedVoxels(const TexelGrid& grid);
+  const TexelGrid& grid() const { return *grid_; }
+  std::size_t count() const { return first_.back(); }
+  std::uint64_t mask(int brick) const { return mask_[std::size_t(brick)]; }  ///< bit v = voxel v is filled
+  /// Number of a filled voxel.
+  std::uint32_t number(int brick, int voxel) const;
+  const float* density(int brick) const { return density_.data() + std::size_t(brick) * TexelGrid::kVoxels; }
+  /// Values of all filled voxels, one vector per channel asked for; rounded to 10 bits of mantissa but for
+  /// labels.
+  std::vector<std::vector<float>> values(std::span<const TexelChannel> channels) const;
+
+ private:
+  const TexelGrid* grid_;
+  std::vector<std::uint64_t> mask_;
+  std::vector<std::uint32_t> first_;  // number of a brick's first filled voxel; one more entry: the count
+  std::vector<float> density_;        // [brick][64]
+};
+
+/// Where the values of a file come from.
 class BleedMap {
  public:
-  explicit BleedMap(const TexelGrid& grid);
+  explicit BleedMap(const PackedVoxels& voxels);
 
-  /// A filled voxel's code is its own place (brick * 64 + voxel); a bled voxel's is ~place of its source.
+  /// A filled voxel's code is its own number; a bled voxel's is ~number of its source.
   static bool is_filled(std::int32_t code) { return code >= 0; }
-  static std::int32_t place(std::int32_t code) { return code >= 0 ? code : ~code; }
+  static std::int32_t number(std::int32_t code) { return code >= 0 ? code : ~code; }
 
   struct Brick {
     std::int32_t x;       ///< brick coordinate along x

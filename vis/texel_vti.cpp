@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
+#include <span>
 
 #include "sim/core/errors.hpp"
+#include "sim/core/parallel.hpp"
 #include "vis/bleed.hpp"
 #include "vis/writers.hpp"
 #include "vis/xml_document.hpp"
@@ -15,115 +15,108 @@
 namespace witherfield::vis {
 namespace {
 
-constexpr int kEdge = TexelGrid::kEdge, kVoxels = TexelGrid::kVoxels;
+constexpr int kEdge = TexelGrid::kEdge;
 // Small enough for a block to stay in the fast caches between gathering and compressing, and for many to be
 // empty; larger ones compress by a few percent better at most.
 constexpr std::uint64_t kBlockBytes = 256 * 1024;
 
-/// Labels are kept as they are: rounding would merge neighbouring blade ids above 2048.
-bool is_label(const TexelField& f) {
-  return f.first == TexelChannel::blade_id || f.first == TexelChannel::tissue;
-}
-
-/// One array of the file: its values in file order, block by block.
-class TexelArray {
+/// Where the voxels of a file go, block by block: the same for all of its arrays.
+class BlockPlan {
  public:
-  TexelArray(const TexelGrid& grid, const BleedMap& map, const VoxelBox& box, const TexelField& field)
-      : grid_(grid), map_(map), box_(box), field_(field), size_(box.hi - box.lo) {
-    rows_ = std::uint64_t(size_.y) * std::uint64_t(size_.z);
-    rows_per_block_ = std::clamp<std::uint64_t>(kBlockBytes / row_bytes(), 1, rows_);
-    ranges_.resize((rows_ + rows_per_block_ - 1) / rows_per_block_);
-  }
-
-  XmlArray compress(Compression compression) {
-    XmlArray out{std::string(field_.name), "Float32", field_.components, {}};
-    out.data =
-        compress_blocks(rows_ * row_bytes(), rows_per_block_ * row_bytes(), compression,
-                        [this](std::size_t block, std::span<std::byte> bytes) {
-                          return fill(block, {reinterpret_cast<float*>(bytes.data()), bytes.size() / 4});
-                        });
-    return out;
-  }
-
-  /// Of the filled voxels as written. Valid after compress(). {0, 0} when there are none.
-  ValueRange range() const {
-    MinMax all;
-    for (const MinMax& r : ranges_) all = {std::min(all.lo, r.lo), std::max(all.hi, r.hi)};
-    return all.lo <= all.hi ? ValueRange{all.lo, all.hi} : ValueRange{};
-  }
-
- private:
-  struct MinMax {
-    float lo = std::numeric_limits<float>::infinity(), hi = -std::numeric_limits<float>::infinity();
+  struct Voxel {
+    std::uint32_t at;   ///< place in the block, in voxels
+    std::int32_t code;  ///< BleedMap's
   };
 
-  std::uint64_t row_bytes() const {
-    return std::uint64_t(size_.x) * std::uint64_t(field_.components) * sizeof(float);
+  BlockPlan(const BleedMap& map, const VoxelBox& box) : size_(box.hi - box.lo) {
+    const std::uint64_t row_bytes = std::uint64_t(size_.x) * sizeof(float),
+                        rows = voxels() / std::uint64_t(size_.x);
+    rows_per_block_ = std::clamp<std::uint64_t>(kBlockBytes / row_bytes, 1, rows);
+    blocks_.resize((rows + rows_per_block_ - 1) / rows_per_block_);
+    parallel_for(blocks_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      std::vector<Voxel> voxels;
+      for (std::size_t b = begin; b < end; ++b) {
+        voxels.clear();
+        plan(map, box, b * rows_per_block_, std::min(rows, (b + 1) * rows_per_block_), voxels);
+        blocks_[b].assign(voxels.begin(), voxels.end());
+      }
+    });
   }
 
-  bool fill(std::size_t block, std::span<float> out) {
-    const std::uint64_t row_floats = row_bytes() / sizeof(float), ny = std::uint64_t(size_.y);
-    const std::uint64_t begin = block * rows_per_block_, end = begin + out.size() / row_floats;
-    bool any = false;
-    for (std::uint64_t row = begin; row < end;) {  // the rows of one k at a time
+  std::uint64_t voxels() const {
+    return std::uint64_t(size_.x) * std::uint64_t(size_.y) * std::uint64_t(size_.z);
+  }
+  std::uint64_t voxels_per_block() const { return rows_per_block_ * std::uint64_t(size_.x); }
+  const std::vector<Voxel>& block(std::size_t b) const { return blocks_[b]; }
+
+ private:
+  void plan(const BleedMap& map, const VoxelBox& box, std::uint64_t begin, std::uint64_t end,
+            std::vector<Voxel>& out) const {
+    const std::uint64_t ny = std::uint64_t(size_.y);
+    for (std::uint64_t row = begin; row < end;) {  // the rows of one plane at a time
       const std::uint64_t k = row / ny, stop = std::min(end, (k + 1) * ny);
-      const int j_begin = box_.lo.y + static_cast<int>(row % ny),
+      const int j_begin = box.lo.y + static_cast<int>(row % ny),
                 j_end = j_begin + static_cast<int>(stop - row);
-      any |= fill_rows(box_.lo.z + static_cast<int>(k), j_begin, j_end,
-                       out.subspan((row - begin) * row_floats, (stop - row) * row_floats), ranges_[block]);
+      plan_plane(map, box, box.lo.z + static_cast<int>(k), j_begin, j_end,
+                 (row - begin) * std::uint64_t(size_.x), out);
       row = stop;
     }
-    return any;
   }
 
-  /// Rows j_begin .. j_end - 1 of plane k. Clears `out` first, even when it then returns false for want of
-  /// voxels.
-  bool fill_rows(int k, int j_begin, int j_end, std::span<float> out, MinMax& range) {
-    std::fill(out.begin(), out.end(), 0.0f);
-    const BleedMap::Layer& layer = map_.layer(k / kEdge);
+  /// Rows j_begin .. j_end - 1 of plane k; the first of them starts at `start` in the block.
+  void plan_plane(const BleedMap& map, const VoxelBox& box, int k, int j_begin, int j_end,
+                  std::uint64_t start, std::vector<Voxel>& out) const {
+    const BleedMap::Layer& layer = map.layer(k / kEdge);
     const int slice = (k % kEdge) * kEdge * kEdge;  // first bit of the plane in a brick's mask
-    bool any = false;
     for (int by = j_begin / kEdge; by <= (j_end - 1) / kEdge; ++by)
       for (const BleedMap::Brick& b : layer.row(by)) {
         const std::int32_t* code =
             layer.codes.data() + b.first + std::popcount(b.mask & ((1ull << slice) - 1));
         for (unsigned bits = (b.mask >> slice) & 0xFFFFu; bits; bits &= bits - 1, ++code) {
           const int v = std::countr_zero(bits), j = by * kEdge + v / kEdge, i = b.x * kEdge + v % kEdge;
-          if (j < j_begin || j >= j_end || i < box_.lo.x || i >= box_.hi.x) continue;
-          put(*code,
-              out.data() + (std::size_t(j - j_begin) * std::size_t(size_.x) + std::size_t(i - box_.lo.x)) *
-                               std::size_t(field_.components),
-              range);
-          any = true;
+          if (j < j_begin || j >= j_end || i < box.lo.x || i >= box.hi.x) continue;
+          const auto at =
+              start + std::uint64_t(j - j_begin) * std::uint64_t(size_.x) + std::uint64_t(i - box.lo.x);
+          out.push_back({static_cast<std::uint32_t>(at), *code});
         }
       }
-    return any;
   }
 
-  void put(std::int32_t code, float* out, MinMax& range) const {
-    const bool filled = BleedMap::is_filled(code);
-    if (is_density_ && !filled) return;
-    const int place = BleedMap::place(code);
-    for (int c = 0; c < field_.components; ++c) {
-      const auto channel = static_cast<TexelChannel>(static_cast<int>(field_.first) + c);
-      const float raw = grid_.channel(place / kVoxels, channel)[place % kVoxels];
-      const float value = is_label_ ? raw : round_mantissa(raw);
-      out[c] = value;
-      if (!filled) continue;
-      range.lo = std::min(range.lo, value);
-      range.hi = std::max(range.hi, value);
-    }
-  }
-
-  const TexelGrid& grid_;
-  const BleedMap& map_;
-  const VoxelBox box_;
-  const TexelField field_;
   const glm::ivec3 size_;
-  const bool is_density_ = field_.first == TexelChannel::density, is_label_ = is_label(field_);
-  std::uint64_t rows_ = 0, rows_per_block_ = 0;
-  std::vector<MinMax> ranges_;
+  std::uint64_t rows_per_block_ = 1;
+  std::vector<std::vector<Voxel>> blocks_;
 };
+
+using Values = std::span<const std::vector<float>>;  // of the filled voxels, one vector per component
+
+ValueRange range_of(Values values) {
+  ValueRange r;
+  if (!values[0].empty()) r.lo = r.hi = values[0][0];
+  for (const std::vector<float>& component : values)
+    for (const float x : component) r = {std::min<double>(r.lo, x), std::max<double>(r.hi, x)};
+  return r;
+}
+
+XmlArray texel_array(const BlockPlan& plan, const TexelField& field, Values values, Compression compression) {
+  const std::size_t components = values.size();
+  const bool bled = field.first != TexelChannel::density;
+  const auto fill = [&](std::size_t block, std::span<std::byte> bytes) {
+    const std::vector<BlockPlan::Voxel>& places = plan.block(block);
+    if (places.empty()) return false;
+    float* out = reinterpret_cast<float*>(bytes.data());
+    std::fill_n(out, bytes.size() / sizeof(float), 0.0f);
+    for (const BlockPlan::Voxel& v : places) {
+      if (!bled && !BleedMap::is_filled(v.code)) continue;
+      const std::size_t number = static_cast<std::size_t>(BleedMap::number(v.code));
+      for (std::size_t c = 0; c < components; ++c) out[v.at * components + c] = values[c][number];
+    }
+    return true;
+  };
+  const std::uint64_t voxel_bytes = components * sizeof(float);
+  return {
+      std::string(field.name), "Float32", field.components,
+      compress_blocks(plan.voxels() * voxel_bytes, plan.voxels_per_block() * voxel_bytes, compression, fill)};
+}
 
 void check_box(const VoxelBox& box, const GridShape& shape) {
   const glm::ivec3 n{shape.nx, shape.ny, shape.nz};
@@ -160,16 +153,28 @@ void merge_ranges(ValueRanges& into, const ValueRanges& from) {
 ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelGrid& grid, const VoxelBox& box,
                             bool optics, const Stamp& stamp, Compression compression) {
   check_box(box, grid.shape());
-  const BleedMap map(grid);
+  const PackedVoxels voxels(grid);
+  const BlockPlan plan(BleedMap(voxels), box);
   XmlDocument document = image_document(grid.shape(), box);
   document.compression = compression;
+  std::vector<TexelField> fields;
+  std::vector<TexelChannel> channels;
+  for (const TexelField& f : texel_fields()) {
+    if (f.optics != optics && f.first != TexelChannel::density) continue;
+    fields.push_back(f);
+    for (int c = 0; c < f.components; ++c)
+      channels.push_back(static_cast<TexelChannel>(static_cast<int>(f.first) + c));
+  }
+  const std::vector<std::vector<float>> values = voxels.values(channels);
+
   XmlSection section{"PointData", {}};
   ValueRanges ranges;
-  for (const TexelField& field : texel_fields()) {
-    if (field.optics != optics && field.first != TexelChannel::density) continue;
-    TexelArray array(grid, map, box, field);
-    section.arrays.push_back(array.compress(compression));
-    ranges[std::string(field.name)] = array.range();
+  std::size_t channel = 0;
+  for (const TexelField& f : fields) {
+    const Values of_field = Values(values).subspan(channel, std::size_t(f.components));
+    section.arrays.push_back(texel_array(plan, f, of_field, compression));
+    ranges[std::string(f.name)] = range_of(of_field);
+    channel += of_field.size();
   }
   document.sections.push_back(std::move(section));
   add_stamp(document, stamp);

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/core/errors.hpp"
 #include "sim/core/parallel.hpp"
@@ -12,84 +15,97 @@
 namespace witherfield::grass {
 namespace {
 
-constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kKindGrain = 4, kPairGrain = 256;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-using Cell = glm::i64vec3;
+/// The points of one blade and tissue, as a range of `order`.
+struct Kind {
+  std::uint32_t begin, end;
+};
 
-/// A hash grid of points. Cells are two search distances wide, so that a ball of that radius around any point
-/// meets at most two cells along each axis.
-class PointHash {
- public:
-  PointHash(const PointSet& points, double distance_m) : points_(points), cell_m_(2 * distance_m) {
-    const std::size_t n = points.size();
-    std::size_t buckets = 64;
-    while (buckets < n) buckets *= 2;
-    mask_ = buckets - 1;
-    std::vector<std::uint32_t> bucket(n);
-    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        bucket[i] = bucket_of(cell_at(points.position_m[i]), kind(i));
-    });
-    start_.assign(buckets + 1, 0);  // counting sort by bucket; within a bucket the points ascend
-    for (std::size_t i = 0; i < n; ++i) ++start_[bucket[i] + 1];
-    for (std::size_t b = 0; b < buckets; ++b) start_[b + 1] += start_[b];
-    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-    entries_.resize(n);
-    for (std::size_t i = 0; i < n; ++i)
-      entries_[next[bucket[i]]++] = {points.position_m[i], kind(i), static_cast<std::uint32_t>(i)};
+/// Points grouped by blade and tissue (counting sort: within a kind they ascend).
+struct Kinds {
+  std::vector<std::uint32_t> order;
+  std::vector<Kind> ranges;
+
+  explicit Kinds(const PointSet& points) : order(points.size()) {
+    const auto [lo, hi] = std::minmax_element(points.blade_id.begin(), points.blade_id.end());
+    const std::int64_t first = *lo, blades = std::int64_t(*hi) - *lo + 1;
+    constexpr std::int64_t kTissues = 4;
+    if (blades > 0x0FFFFFFF)
+      throw InvalidInput("merge_points: blade_id spans " + std::to_string(blades) +
+                         " values, at most 2^28 - 1");
+    const auto kind = [&](std::size_t i) {
+      return std::size_t((points.blade_id[i] - first) * kTissues +
+                         std::min<std::int64_t>(points.tissue[i], 3));
+    };
+    std::vector<std::uint32_t> next(std::size_t(blades * kTissues), 0);
+    for (std::size_t i = 0; i < order.size(); ++i) ++next[kind(i)];
+    std::uint32_t total = 0;
+    for (std::uint32_t& n : next) {
+      if (n > 1) ranges.push_back({total, total + n});
+      total += std::exchange(n, total);
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) order[next[kind(i)]++] = static_cast<std::uint32_t>(i);
   }
+};
 
-  /// The nearest other point of the same blade and tissue nearer than distance_m; of equally near ones the lowest index.
-  std::uint32_t nearest(std::size_t i, double distance_m) const {
-    const glm::dvec3 p = points_.position_m[i];
-    const std::uint64_t own = kind(i);
-    const Cell lo = cell_at(p - distance_m), hi = cell_at(p + distance_m);
-    std::uint32_t best = kNone;
-    double best_d2 = distance_m * distance_m;
-    for (auto z = lo.z; z <= hi.z; ++z)
-      for (auto y = lo.y; y <= hi.y; ++y)
-        for (auto x = lo.x; x <= hi.x; ++x) {
-          const std::size_t b = bucket_of({x, y, z}, own);
-          for (std::uint32_t e = start_[b]; e < start_[b + 1]; ++e) {
-            const Entry& other = entries_[e];
-            if (other.kind != own || other.index == i) continue;
-            const glm::dvec3 gap = other.position_m - p;
-            const double d2 = glm::dot(gap, gap);
-            if (d2 < best_d2 || (d2 == best_d2 && best != kNone && other.index < best))
-              best = other.index, best_d2 = d2;
-          }
-        }
-    return best;
+/// Nearest neighbours within one kind. A blade is long and thin: sorted along the axis in which it extends
+/// furthest, only a handful of points lie within the distance along that axis, and only these are looked at.
+class Sweep {
+ public:
+  /// nearest[i] = the nearest other point nearer than distance_m, of equally near ones the lowest index;
+  /// kNone if none.
+  void run(const PointSet& points, const Kinds& kinds, Kind kind, double distance_m,
+           std::vector<std::uint32_t>& nearest) {
+    line_up(points, kinds, kind);
+    const double limit2 = distance_m * distance_m;
+    best_.assign(line_.size(), {limit2, kNone});
+    for (std::size_t a = 0; a < line_.size(); ++a)
+      for (std::size_t b = a + 1; b < line_.size() && line_[b].along - line_[a].along < distance_m; ++b) {
+        const glm::dvec3 gap = line_[a].position_m - line_[b].position_m;
+        const double d2 = glm::dot(gap, gap);
+        if (!(d2 < limit2)) continue;
+        best_[a] = std::min(best_[a], {d2, line_[b].index});
+        best_[b] = std::min(best_[b], {d2, line_[a].index});
+      }
+    for (std::size_t a = 0; a < line_.size(); ++a) nearest[line_[a].index] = best_[a].second;
   }
 
  private:
   struct Entry {
-    glm::dvec3 position_m;
-    std::uint64_t kind;
+    double along;
     std::uint32_t index;
+    glm::dvec3 position_m;
   };
 
-  std::uint64_t kind(std::size_t i) const {
-    return std::uint64_t(std::uint32_t(points_.blade_id[i])) << 8 | points_.tissue[i];
+  void line_up(const PointSet& points, const Kinds& kinds, Kind kind) {
+    glm::dvec3 lo = points.position_m[kinds.order[kind.begin]], hi = lo, sum(0);
+    for (std::uint32_t k = kind.begin; k < kind.end; ++k) {
+      const glm::dvec3 p = points.position_m[kinds.order[k]];
+      lo = glm::min(lo, p), hi = glm::max(hi, p), sum += p;
+    }
+    if (!std::isfinite(sum.x + sum.y + sum.z))
+      throw SolverFailure("merge_points: a position on blade " +
+                          std::to_string(points.blade_id[kinds.order[kind.begin]]) + " is not finite");
+    const glm::dvec3 extent = hi - lo;
+    const int axis = extent.x > extent.y && extent.x > extent.z ? 0 : extent.y > extent.z ? 1 : 2;
+    line_.resize(kind.end - kind.begin);
+    for (std::uint32_t k = kind.begin; k < kind.end; ++k) {
+      const std::uint32_t i = kinds.order[k];
+      line_[k - kind.begin] = {points.position_m[i][axis], i, points.position_m[i]};
+    }
+    std::sort(line_.begin(), line_.end(), [](const Entry& a, const Entry& b) {
+      return a.along < b.along || (a.along == b.along && a.index < b.index);
+    });
   }
-  Cell cell_at(const glm::dvec3& p) const { return Cell(glm::floor(p / cell_m_)); }
 
-  std::uint32_t bucket_of(const Cell& c, std::uint64_t kind) const {
-    std::uint64_t h = std::uint64_t(c.x) * 0x9E3779B97F4A7C15u + std::uint64_t(c.y) * 0xC2B2AE3D27D4EB4Fu +
-                      std::uint64_t(c.z) * 0x165667B19E3779F9u + kind * 0xD6E8FEB86659FD93u;
-    h = (h ^ (h >> 32)) * 0xD6E8FEB86659FD93u;
-    return static_cast<std::uint32_t>((h ^ (h >> 32)) & mask_);
-  }
-
-  const PointSet& points_;
-  double cell_m_;
-  std::size_t mask_ = 0;
-  std::vector<std::uint32_t> start_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> line_;
+  std::vector<std::pair<double, std::uint32_t>> best_;  // squared distance, index
 };
 
-/// Axial mean of two directions; the sign follows the heavier one's. Zero vectors (a cone's axis) have no say.
+/// Axial mean of two directions; the sign follows the heavier one's. Zero vectors (a cone's axis) have no
+/// say.
 glm::vec3 axial_mean(const glm::vec3& a, double mass_a, const glm::vec3& b, double mass_b) {
   float dyads[6] = {};
   const double total = mass_a + mass_b;
@@ -115,17 +131,20 @@ void combine(PointSet& p, std::size_t i, std::size_t j) {
   p.mass_kg[i] = mi + mj;
 }
 
-/// Drops the points marked in `gone`; the others keep their order.
-void drop(PointSet& p, const std::vector<std::uint8_t>& gone) {
-  std::size_t kept = 0;
+/// Drops the points `gone` (ascending); the others keep their order.
+void drop(PointSet& p, const std::vector<std::uint32_t>& gone) {
+  const std::size_t n = p.size(), kept = n - gone.size();
   const auto squeeze = [&](auto& values) {
-    kept = 0;
-    for (std::size_t i = 0; i < gone.size(); ++i)
-      if (!gone[i]) values[kept++] = values[i];
+    auto to = values.begin() + gone.front();
+    for (std::size_t g = 0; g < gone.size(); ++g) {
+      const std::size_t next = g + 1 < gone.size() ? gone[g + 1] : n;
+      to = std::move(values.begin() + gone[g] + 1, values.begin() + std::ptrdiff_t(next), to);
+    }
   };
   squeeze(p.position_m), squeeze(p.velocity_m_s), squeeze(p.mass_kg), squeeze(p.normal), squeeze(p.tangent);
   squeeze(p.blade_id), squeeze(p.arc), squeeze(p.offset), squeeze(p.normal_local), squeeze(p.tissue);
-  squeeze(p.water), squeeze(p.chlorophyll_ug_cm2), squeeze(p.stress_vein_MPa), squeeze(p.stress_mesophyll_MPa);
+  squeeze(p.water), squeeze(p.chlorophyll_ug_cm2), squeeze(p.stress_vein_MPa),
+      squeeze(p.stress_mesophyll_MPa);
   squeeze(p.strain_shrink), squeeze(p.specular), squeeze(p.diffuse);
   p.resize(kept);
 }
@@ -138,24 +157,22 @@ std::size_t merge_points(PointSet& points, double distance_m) {
   const std::size_t n = points.size();
   if (distance_m == 0 || n < 2) return 0;
 
-  const PointHash hash(points, distance_m);
-  std::vector<std::uint32_t> nearest(n);
-  parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) nearest[i] = hash.nearest(i, distance_m);
+  const Kinds kinds(points);
+  std::vector<std::uint32_t> nearest(n, kNone);
+  parallel_for(kinds.ranges.size(), kKindGrain, [&](std::size_t begin, std::size_t end) {
+    Sweep sweep;
+    for (std::size_t k = begin; k < end; ++k) sweep.run(points, kinds, kinds.ranges[k], distance_m, nearest);
   });
 
   // Only pairs that are each other's nearest combine: that does not depend on who is asked first.
-  std::vector<std::uint8_t> gone(n, 0);
-  std::size_t merges = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t j = nearest[i];
-    if (j == kNone || j <= i || nearest[j] != i) continue;
-    combine(points, i, j);
-    gone[j] = 1;
-    ++merges;
-  }
-  if (merges) drop(points, gone);
-  return merges;
+  std::vector<std::uint32_t> gone;
+  for (std::uint32_t j = 0; j < n; ++j)
+    if (nearest[j] < j && nearest[nearest[j]] == j) gone.push_back(j);
+  parallel_for(gone.size(), kPairGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) combine(points, nearest[gone[g]], gone[g]);
+  });
+  if (!gone.empty()) drop(points, gone);
+  return gone.size();
 }
 
 }  // namespace witherfield::grass

@@ -1,8 +1,16 @@
+// Systematic sampling: the voxels' expected counts are laid end to end, and a comb with teeth one apart,
+// shifted by one random offset, picks the points. Each voxel's u in floor(proportion * density + u) is then
+// uniform, as erratum E0.2 asks, while the total is off by less than one point; independent u would leave an
+// error of sqrt(voxels) points.
 #include "sim/grass/points.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/core/errors.hpp"
 #include "sim/core/parallel.hpp"
@@ -13,24 +21,13 @@ namespace {
 
 using C = TexelChannel;
 constexpr int kEdge = TexelGrid::kEdge;
-constexpr int kBricksPerChunk = 64;  // fixed, so that the cut into chunks does not depend on the threads
+constexpr std::size_t kBricksPerChunk = 64;
 
-/// A voxel that gets at least one point.
-struct Draw {
-  std::int32_t brick;
-  std::int32_t voxel;  // local index in the brick
-  std::uint32_t count;
-};
-
-/// Counters are laid out as in Random: {draw, what, index}. One block holds the draws of a row of four voxels.
+/// Four draws; counters are laid out as in Random: {draw, what, index}.
 std::array<std::uint32_t, 4> block(std::uint32_t draw, Stream what, std::uint64_t index, std::uint64_t seed) {
   return philox4x32(
       {draw, static_cast<std::uint32_t>(what), std::uint32_t(index), std::uint32_t(index >> 32)},
       {std::uint32_t(seed), std::uint32_t(seed >> 32)});
-}
-
-glm::ivec3 voxel_of(const TexelGrid& grid, int brick, int voxel) {
-  return grid.brick_base(brick) + glm::ivec3(voxel % kEdge, voxel / kEdge % kEdge, voxel / (kEdge * kEdge));
 }
 
 std::uint64_t linear_index(const GridShape& shape, const glm::ivec3& v) {
@@ -38,26 +35,29 @@ std::uint64_t linear_index(const GridShape& shape, const glm::ivec3& v) {
          std::uint64_t(v.x);
 }
 
-/// floor(x + u), u = bits / 2^32: the mean over u is x (erratum E0.2).
-std::uint32_t round_at_random(double x, std::uint32_t bits) {
-  if (!(x >= 0 && x < 1e6))
-    throw InvalidInput("sample_points: points in one voxel (proportion * density) must be within 0..1e6, got " +
-                       std::to_string(x));
-  return static_cast<std::uint32_t>(x + bits * 0x1p-32);
+/// Expected points of a voxel in units of 2^-32: sums of them are exact, whatever the order.
+std::uint64_t expected_points(double proportion, float density) {
+  return std::uint64_t(std::int64_t(proportion * density * 0x1p32 + 0.5));
 }
 
-void count_brick(const TexelGrid& grid, int brick, double proportion, std::uint64_t seed,
-                 std::vector<Draw>& draws) {
+/// Sum over a brick. Without branches: most voxels are empty, but which is hard to guess.
+std::uint64_t expected_points_of_brick(const TexelGrid& grid, int brick, double proportion) {
+  constexpr double kMost = 1e5;  // keeps sums over a chunk below 2^63
   const float* density = grid.channel(brick, C::density);
-  for (int row = 0; row < kEdge * kEdge; ++row) {
-    const float* d = density + row * kEdge;
-    if (d[0] == 0 && d[1] == 0 && d[2] == 0 && d[3] == 0) continue;
-    const std::uint64_t index = linear_index(grid.shape(), voxel_of(grid, brick, row * kEdge)) / kEdge;
-    const auto bits = block(0, Stream::point_count, index, seed);
-    for (int x = 0; x < kEdge; ++x)
-      if (const std::uint32_t n = round_at_random(proportion * d[x], bits[std::size_t(x)]))
-        draws.push_back({brick, row * kEdge + x, n});
+  std::uint64_t sum = 0;
+  int bad = 0;
+  for (int v = 0; v < TexelGrid::kVoxels; ++v) {
+    const double x = proportion * density[v];
+    const bool good = x >= 0 && x < kMost;
+    bad += !good;
+    sum += expected_points(proportion, good ? density[v] : 0.0f);
   }
+  for (int v = 0; bad && v < TexelGrid::kVoxels; ++v)
+    if (const double x = proportion * density[v]; !(x >= 0 && x < kMost))
+      throw InvalidInput(
+          "sample_points: points in one voxel (proportion * density) must be within 0..1e5, got " +
+          std::to_string(x));
+  return sum;
 }
 
 glm::vec3 unit_or_zero(float x, float y, float z) {
@@ -66,13 +66,14 @@ glm::vec3 unit_or_zero(float x, float y, float z) {
 }
 
 /// What the points of a voxel inherit.
-void inherit(const TexelGrid& grid, const Draw& draw, PointSet& points, std::size_t i) {
-  const auto value = [&](C c) { return grid.channel(draw.brick, c)[draw.voxel]; };
+void inherit(const TexelGrid& grid, int brick, int voxel, PointSet& points, std::size_t i) {
+  const float* values = grid.channel(brick, C::density) + voxel;
+  const auto value = [values](C c) { return values[int(c) * TexelGrid::kVoxels]; };
   points.normal[i] = unit_or_zero(value(C::normal_x), value(C::normal_y), value(C::normal_z));
   points.tangent[i] = unit_or_zero(value(C::tangent_x), value(C::tangent_y), value(C::tangent_z));
-  points.blade_id[i] = static_cast<std::int32_t>(std::lround(value(C::blade_id)));
+  points.blade_id[i] = static_cast<std::int32_t>(value(C::blade_id) + 0.5f);
   points.arc[i] = value(C::arc);
-  points.tissue[i] = static_cast<std::uint8_t>(std::lround(value(C::tissue)));
+  points.tissue[i] = static_cast<std::uint8_t>(value(C::tissue) + 0.5f);
   points.water[i] = value(C::water);
   points.chlorophyll_ug_cm2[i] = value(C::chlorophyll_ug_cm2);
   points.stress_vein_MPa[i] = value(C::stress_vein_MPa);
@@ -82,18 +83,26 @@ void inherit(const TexelGrid& grid, const Draw& draw, PointSet& points, std::siz
   points.diffuse[i] = {value(C::diffuse_r), value(C::diffuse_g), value(C::diffuse_b)};
 }
 
-void place(const TexelGrid& grid, const Draw& draw, double mass_kg, std::uint64_t seed, PointSet& points,
-           std::size_t first) {
+/// Points of one brick. `sum`: expected points of all voxels before, plus the offset, in units of 2^-32. A
+/// voxel gets floor(x + u) points with u = the fraction of the sum so far.
+void fill_brick(const TexelGrid& grid, int brick, std::uint64_t& sum, std::uint64_t seed, PointSet& points) {
   const GridShape& shape = grid.shape();
-  const glm::ivec3 voxel = voxel_of(grid, draw.brick, draw.voxel);
-  const std::uint64_t index = linear_index(shape, voxel);
-  for (std::uint32_t n = 0; n < draw.count; ++n) {
-    const auto bits = block(n, Stream::point_place, index, seed);
-    const glm::dvec3 u(bits[0] * 0x1p-32, bits[1] * 0x1p-32, bits[2] * 0x1p-32);
-    const std::size_t i = first + n;
-    points.position_m[i] = shape.origin_m + (glm::dvec3(voxel) + u) * shape.spacing_m;
-    points.mass_kg[i] = mass_kg;
-    inherit(grid, draw, points, i);
+  const float* density = grid.channel(brick, C::density);
+  const glm::ivec3 base = grid.brick_base(brick);
+  for (int v = 0; v < TexelGrid::kVoxels; ++v) {
+    const std::uint64_t before = sum;
+    sum += expected_points(points.proportion, density[v]);
+    const std::size_t first = before >> 32, end = sum >> 32;
+    if (first == end) continue;
+    const glm::ivec3 voxel = base + glm::ivec3(v % kEdge, v / kEdge % kEdge, v / (kEdge * kEdge));
+    const std::uint64_t index = linear_index(shape, voxel);
+    for (std::size_t i = first; i < end; ++i) {
+      const auto bits = block(std::uint32_t(i - first), Stream::point_place, index, seed);
+      const glm::dvec3 u(bits[0] * 0x1p-32, bits[1] * 0x1p-32, bits[2] * 0x1p-32);
+      points.position_m[i] = shape.origin_m + (glm::dvec3(voxel) + u) * shape.spacing_m;
+      points.mass_kg[i] = points.point_mass_kg;
+      inherit(grid, brick, v, points, i);
+    }
   }
 }
 
@@ -108,32 +117,33 @@ PointSet sample_points(const TexelGrid& grid, double proportion, double point_ma
 
   const std::size_t bricks = std::size_t(grid.brick_count());
   const std::size_t chunks = (bricks + kBricksPerChunk - 1) / kBricksPerChunk;
-  std::vector<std::vector<Draw>> draws(chunks);
+  const auto bricks_of = [bricks](std::size_t c) {
+    return std::pair(c * kBricksPerChunk, std::min(bricks, (c + 1) * kBricksPerChunk));
+  };
+  std::vector<std::uint64_t> sum(chunks + 1, 0);  // before chunk c, in units of 2^-32 points
   parallel_for(chunks, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c)
-      for (std::size_t b = c * kBricksPerChunk; b < std::min(bricks, (c + 1) * kBricksPerChunk); ++b)
-        count_brick(grid, int(b), proportion, seed, draws[c]);
+      for (auto [b, last] = bricks_of(c); b < last; ++b)
+        sum[c + 1] += expected_points_of_brick(grid, int(b), proportion);
   });
-
-  std::vector<std::size_t> first(chunks + 1, 0);
+  sum[0] = block(0, Stream::point_count, 0, seed)[0];  // the offset, uniform in [0, 1)
   for (std::size_t c = 0; c < chunks; ++c) {
-    first[c + 1] = first[c];
-    for (const Draw& d : draws[c]) first[c + 1] += d.count;
+    sum[c + 1] += sum[c];
+    if (sum[c + 1] >> 32 > 0x7FFFFFFFu)
+      throw InvalidInput("sample_points: more than 2^31 - 1 points with proportion " +
+                         std::to_string(proportion));
   }
 
   PointSet points;
-  points.resize(first[chunks]);
+  points.resize(sum[chunks] >> 32);
   points.proportion = proportion;
   points.point_mass_kg = point_mass_kg;
   // A disc of this radius has the share of blade surface that one point stands for: spacing^2 / proportion.
   points.radius_m = grid.shape().spacing_m / std::sqrt(proportion * std::numbers::pi);
   parallel_for(chunks, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      std::size_t i = first[c];
-      for (const Draw& d : draws[c]) {
-        place(grid, d, point_mass_kg, seed, points, i);
-        i += d.count;
-      }
+      std::uint64_t running = sum[c];
+      for (auto [b, last] = bricks_of(c); b < last; ++b) fill_brick(grid, int(b), running, seed, points);
     }
   });
   return points;

@@ -56,11 +56,12 @@ Frame frame_at(const BladeState& state, Spot spot) {
 
 void check(const char* where, const PointSet& points, const BladeState& state, int first_blade_id) {
   const std::size_t nodes = state.node_m.size();
-  if (state.segments < 1 || nodes % std::size_t(state.nodes_per_blade()) != 0 || state.tangent.size() != nodes ||
-      state.side.size() != nodes)
+  if (state.segments < 1 || nodes % std::size_t(state.nodes_per_blade()) != 0 ||
+      state.tangent.size() != nodes || state.side.size() != nodes)
     throw InvalidInput(std::string(where) + ": blade state with " + std::to_string(nodes) + " nodes, " +
-                       std::to_string(state.tangent.size()) + " tangents and " + std::to_string(state.side.size()) +
-                       " sides is not whole blades of " + std::to_string(state.segments) + " segments");
+                       std::to_string(state.tangent.size()) + " tangents and " +
+                       std::to_string(state.side.size()) + " sides is not whole blades of " +
+                       std::to_string(state.segments) + " segments");
   const auto [lo, hi] = std::minmax_element(points.blade_id.begin(), points.blade_id.end());
   if (lo == points.blade_id.end()) return;
   const int last = first_blade_id + state.blade_count() - 1;
@@ -69,8 +70,8 @@ void check(const char* where, const PointSet& points, const BladeState& state, i
                        " is outside " + std::to_string(first_blade_id) + ".." + std::to_string(last));
 }
 
-/// The nearest spot of one blade's centre line to `p`. Looks at segments around `guess`, and further as long as the
-/// nearest is at the rim of what was looked at.
+/// The nearest spot of one blade's centre line to `p`. Looks at segments around `guess`, and further as long
+/// as the nearest is at the rim of what was looked at.
 class NearestSegment {
  public:
   NearestSegment(const BladeState& state, int blade, const glm::dvec3& p)
@@ -95,7 +96,8 @@ class NearestSegment {
 
  private:
   void look_at(int k) {
-    const glm::dvec3 a = state_.node_m[first_ + std::size_t(k)], b = state_.node_m[first_ + std::size_t(k) + 1];
+    const glm::dvec3 a = state_.node_m[first_ + std::size_t(k)],
+                     b = state_.node_m[first_ + std::size_t(k) + 1];
     const glm::dvec3 along = b - a;
     const double length2 = glm::dot(along, along);
     const double t = length2 > 0 ? std::clamp(glm::dot(p_ - a, along) / length2, 0.0, 1.0) : 0.0;
@@ -184,9 +186,10 @@ void ride_on_blades(PointSet& points, const BladeState& initial, const BladeStat
   check("ride_on_blades", points, now, first_blade_id);
   if (initial.segments != now.segments || initial.half_width_m.size() != now.half_width_m.size() ||
       initial.thickness_m.size() != now.thickness_m.size())
-    throw InvalidInput("ride_on_blades: the two states differ: " + std::to_string(initial.blade_count()) + " and " +
-                       std::to_string(now.blade_count()) + " blades of " + std::to_string(initial.segments) +
-                       " and " + std::to_string(now.segments) + " segments");
+    throw InvalidInput("ride_on_blades: the two states differ: " + std::to_string(initial.blade_count()) +
+                       " and " + std::to_string(now.blade_count()) + " blades of " +
+                       std::to_string(initial.segments) + " and " + std::to_string(now.segments) +
+                       " segments");
   const Ride ride{now, ratios(now.half_width_m, initial.half_width_m),
                   ratios(now.thickness_m, initial.thickness_m), first_blade_id};
   parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {

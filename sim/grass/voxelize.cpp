@@ -3,194 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <glm/geometric.hpp>
 #include <string>
 
 #include "sim/core/errors.hpp"
 #include "sim/core/parallel.hpp"
 #include "sim/grass/axial.hpp"
-#include "sim/grass/clip.hpp"
+#include "sim/grass/blade_cutter.hpp"
+#include "sim/grass/half_strips.hpp"
 
 namespace witherfield::grass {
 namespace {
 
-constexpr int kVein = 1, kMesophyll = 2;
-constexpr int kBladesPerItem = 4;     // fixed, so that the pieces' order does not depend on the threads
-constexpr double kLeastArea = 1e-12;  // of a voxel's face; thinner slivers are rounding noise of the cuts
-
-/// One segment of one half strip: from the centre line (axis) to the rim, nodes k (0) and k + 1 (1).
-/// Its two triangles are (axis0, rim0, rim1) and (axis0, rim1, axis1).
-struct HalfStrip {
-  glm::dvec3 axis[2], rim[2], outward[2];
-  double half_width[2];
-  int node;  // k, counted over all blades
-};
-
-/// Half strips of a blade around its axis: 2 for the ribbon, 8 for the cone (4 silhouettes), and their share
-/// of the area.
-int half_strips(BladeForm form) {
-  return form == BladeForm::ribbon ? 2 : 8;
-}
-double area_share(BladeForm form) {
-  return form == BladeForm::ribbon ? 1.0 : 0.25;
-}
-
-/// Unit direction from the axis to the rim of half strip `strip` at a node.
-glm::dvec3 outward(const BladeState& s, std::size_t node, int strip) {
-  const glm::dvec3 normal = blade_normal(s.tangent[node], s.side[node]);
-  if (s.form == BladeForm::ribbon) {
-    const double fold = s.fold_rad[node];
-    return (strip ? -std::cos(fold) : std::cos(fold)) * s.side[node] + std::sin(fold) * normal;
-  }
-  constexpr double r = 0.70710678118654752440;
-  static constexpr double cosine[8] = {1, r, 0, -r, -1, -r, 0, r}, sine[8] = {0, r, 1, r, 0, -r, -1, -r};
-  return cosine[strip] * s.side[node] + sine[strip] * normal;
-}
-
-/// Calls visit for every half strip of one blade, from root to tip. Voxelisation and total area both
-/// see the blade through this, so they cannot disagree.
-template <class Visit>
-void visit_half_strips(const BladeState& s, int blade, const Visit& visit) {
-  const int strips = half_strips(s.form);
-  const std::size_t first = std::size_t(blade) * std::size_t(s.nodes_per_blade());
-  for (int strip = 0; strip < strips; ++strip) {
-    HalfStrip h{};
-    for (int k = 0; k <= s.segments; ++k) {
-      const std::size_t node = first + std::size_t(k);
-      h.axis[0] = h.axis[1], h.rim[0] = h.rim[1], h.outward[0] = h.outward[1],
-      h.half_width[0] = h.half_width[1];
-      h.axis[1] = s.node_m[node];
-      h.outward[1] = outward(s, node, strip);
-      h.half_width[1] = s.half_width_m[node];
-      h.rim[1] = h.axis[1] + h.half_width[1] * h.outward[1];
-      h.node = int(node) - 1;
-      if (k > 0) visit(h);
-    }
-  }
-}
-
-/// What one blade has in one voxel, from one triangle.
-struct Piece {
-  std::uint32_t voxel;  // brick cell * 64 + voxel in the brick
-  std::uint32_t node;   // segment's lower node * 2 + (1 if vein)
-  float area;           // in faces of a voxel
-  float along;          // place in the segment, 0 lower node .. 1 upper node
-  glm::vec3 normal;
-};
-
-/// Cuts half strips into pieces. One per thread item.
-class Cutter {
- public:
-  Cutter(const BladeState& state, const GridShape& shape, double vein_fraction, std::vector<Piece>& out)
-      : shape_(shape),
-        cone_(state.form == BladeForm::cone),
-        share_(area_share(state.form)),
-        vein_(vein_fraction),
-        tile_x_(shape.nx - 2 * shape.margin),
-        tile_y_(shape.ny - 2 * shape.margin),
-        out_(out) {}
-
-  /// Splits both triangles where |u| = vein_fraction * half width, so that each polygon is of one tissue. The
-  /// dividing line runs straight from node to node and meets the diagonal at D, where diag * w1 = vein * ((1
-  /// - diag) * w0 + diag * w1).
-  void add(const HalfStrip& h, const glm::dvec3& blade_normal) {
-    const double w0 = h.half_width[0], w1 = h.half_width[1];
-    if (!(w0 > 0) && !(w1 > 0)) return;
-    const double diag = vein_ * w0 / (vein_ * w0 + (1 - vein_) * w1 + 1e-300);
-    const Corner axis0 = corner(h.axis[0], 0), axis1 = corner(h.axis[1], 1), rim0 = corner(h.rim[0], 0),
-                 rim1 = corner(h.rim[1], 1);
-    const Corner split0 = mix(axis0, rim0, vein_), split1 = mix(axis1, rim1, vein_),
-                 d = mix(axis0, rim1, std::min(diag, 1.0));
-    node_ = std::uint32_t(h.node);
-    const glm::dvec3 radial = h.outward[0] + h.outward[1];
-    radial_ = glm::vec3(glm::dot(radial, radial) > 1e-12 ? glm::normalize(radial) : h.outward[0]);
-    if (face(axis0, rim0, rim1, blade_normal)) {
-      polygon({axis0, split0, d}, kVein);
-      polygon({split0, rim0, rim1, d}, kMesophyll);
-    }
-    if (face(axis0, rim1, axis1, blade_normal)) {
-      polygon({axis0, d, split1, axis1}, kVein);
-      polygon({d, rim1, split1}, kMesophyll);
-    }
-  }
-
- private:
-  Corner corner(const glm::dvec3& p, double along) const {
-    const glm::dvec3 q = (p - shape_.origin_m) / shape_.spacing_m;
-    return {q.x, q.y, q.z, along};
-  }
-  static Corner mix(const Corner& a, const Corner& b, double t) {
-    Corner c;
-    for (std::size_t k = 0; k < 4; ++k) c[k] = a[k] + t * (b[k] - a[k]);
-    return c;
-  }
-
-  /// Sets plane and normal of the triangle; false when it has no area.
-  bool face(const Corner& a, const Corner& b, const Corner& c, const glm::dvec3& toward) {
-    const glm::dvec3 u(b[0] - a[0], b[1] - a[1], b[2] - a[2]), v(c[0] - a[0], c[1] - a[1], c[2] - a[2]);
-    const glm::dvec3 cross = glm::cross(u, v);
-    const double length = glm::length(cross);
-    if (!(length > 2 * kLeastArea)) return false;
-    const glm::dvec3 unit = cross * ((glm::dot(cross, toward) < 0 ? -1.0 : 1.0) / length),
-                     size = glm::abs(unit);
-    normal_ = glm::vec3(unit);
-    drop_ = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    per_projected_ = 0.5 * share_ / size[drop_];
-    return true;
-  }
-
-  void polygon(std::initializer_list<Corner> corners, int tissue) {
-    Polygon p;
-    for (const Corner& c : corners) p.add(c);
-    Piece piece;
-    piece.node = node_ * 2 + (tissue == kVein);
-    // Cone: the frame's normal is the direction from the axis, none in the vein (Jiao et al. 2010, sec. 2.1).
-    piece.normal = !cone_ ? normal_ : tissue == kVein ? glm::vec3(0) : radial_;
-    std::array<int, 3> voxel;
-    cut_to_voxels<2>(p, shape_.nz, voxel,
-                     [&](const Polygon& part, int x, int y, int z) { emit(part, x, y, z, piece); });
-  }
-
-  void emit(const Polygon& p, int x, int y, int z, Piece& piece) {
-    // Area and centroid by a fan of triangles, projected along the axis that the plane faces most.
-    const std::size_t b = drop_ == 0 ? 1 : 0, c = drop_ == 2 ? 1 : 2;
-    const Corner& o = p.corner[0];
-    double area = 0, moment = 0;
-    for (int i = 1; i + 1 < p.count; ++i) {
-      const Corner &q = p.corner[i], &r = p.corner[i + 1];
-      const double cross = (q[b] - o[b]) * (r[c] - o[c]) - (q[c] - o[c]) * (r[b] - o[b]);
-      area += cross;
-      moment += cross * (o[3] + q[3] + r[3]);
-    }
-    const double faces = std::abs(area) * per_projected_;
-    if (!(faces > kLeastArea)) return;
-    x = wrap(x, shape_.nx, tile_x_);
-    y = wrap(y, shape_.ny, tile_y_);
-    constexpr int e = TexelGrid::kEdge;
-    const int cell = ((z / e) * (shape_.ny / e) + y / e) * (shape_.nx / e) + x / e;
-    piece.voxel = std::uint32_t(cell) * TexelGrid::kVoxels + std::uint32_t(((z % e) * e + y % e) * e + x % e);
-    piece.area = float(faces);
-    piece.along = float(std::clamp(moment / (3 * area), 0.0, 1.0));
-    out_.push_back(piece);
-  }
-
-  /// Nearest voxel inside the grid that is a whole number of tiles away.
-  static int wrap(int i, int n, int tile) {
-    if (i < 0) return i + (-i + tile - 1) / tile * tile;
-    if (i >= n) return i - (i - n + tile) / tile * tile;
-    return i;
-  }
-
-  const GridShape& shape_;
-  bool cone_;
-  double share_, vein_;
-  int tile_x_, tile_y_;
-  std::vector<Piece>& out_;
-  std::uint32_t node_ = 0;
-  glm::vec3 radial_{0}, normal_{0};
-  int drop_ = 0;
-  double per_projected_ = 0;
-};
+constexpr std::size_t kBladesPerItem = 2;  // fixed, so that the pieces' order does not depend on the threads
 
 /// What is interpolated along a blade, side by side: one cache line per node.
 struct alignas(64) NodeValues {
@@ -317,19 +141,20 @@ void check(const BladeState& s) {
             s.stress_mesophyll_MPa, s.strain_vein, s.strain_mesophyll, s.diffuse, s.specular))
     throw InvalidInput("voxelize: every array of a blade state must have one value per node (" +
                        std::to_string(n) + ")");
+  const auto extent = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
   for (std::size_t i = 0; i < n; ++i) {
     const glm::dvec3 p = s.node_m[i];
-    const double size = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + std::abs(s.half_width_m[i]);
-    if (!(size < 1e3) || s.half_width_m[i] < 0)
-      throw InvalidInput("voxelize: node " + std::to_string(int(i) % s.nodes_per_blade()) + " of blade " +
-                         std::to_string(int(i) / s.nodes_per_blade()) + " is at (" + std::to_string(p.x) +
-                         ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ") m with half width " +
-                         std::to_string(s.half_width_m[i]) + " m; must be finite, within 1000 m, width >= 0");
+    const double width = s.half_width_m[i];
+    // Written so that a NaN anywhere fails.
+    const bool good = extent(p) < 1e3 && width >= 0 && width < 1e3 && extent(s.tangent[i]) < 2 &&
+                      extent(s.side[i]) < 2 && std::abs(s.fold_rad[i]) < 2;
+    if (good) continue;
+    throw InvalidInput("voxelize: node " + std::to_string(int(i) % s.nodes_per_blade()) + " of blade " +
+                       std::to_string(int(i) / s.nodes_per_blade()) + " at (" + std::to_string(p.x) + ", " +
+                       std::to_string(p.y) + ", " + std::to_string(p.z) + ") m with half width " +
+                       std::to_string(width) + " m and fold " + std::to_string(s.fold_rad[i]) +
+                       " rad: must be finite, within 1000 m, width >= 0, tangent and side unit");
   }
-}
-
-double triangle_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
 /// Pieces of all blades; element i holds those of blades [i, i + 1) * kBladesPerItem.
@@ -372,6 +197,9 @@ TexelGrid voxelize(const BladeState& state, const GridShape& shape, double vein_
   check(state);
   if (!(vein_fraction >= 0 && vein_fraction <= 1))
     throw InvalidInput("voxelize: vein_fraction must lie in 0..1, got " + std::to_string(vein_fraction));
+  if (shape.margin < 0 || 2 * shape.margin >= std::min(shape.nx, shape.ny))
+    throw InvalidInput("voxelize: the margin must leave a tile, got " + std::to_string(shape.margin) +
+                       " voxels on each side of " + std::to_string(std::min(shape.nx, shape.ny)));
   TexelGrid grid(shape);
   std::vector<std::vector<Piece>> lists = cut_blades(state, shape, vein_fraction);
 
@@ -409,9 +237,7 @@ TexelGrid voxelize(const BladeState& state, const GridShape& shape, double vein_
 double total_blade_area_m2(const BladeState& state) {
   double total = 0;
   for (int blade = 0; blade < state.blade_count(); ++blade)
-    visit_half_strips(state, blade, [&](const HalfStrip& h) {
-      total += triangle_area(h.axis[0], h.rim[0], h.rim[1]) + triangle_area(h.axis[0], h.rim[1], h.axis[1]);
-    });
+    visit_half_strips(state, blade, [&](const HalfStrip& h) { total += area(h); });
   return total * area_share(state.form);
 }
 

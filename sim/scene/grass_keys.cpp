@@ -23,7 +23,8 @@ void range(KeyVisitor& v, const Key& key, Range& r, const Limits& limits) {
 void describe_course(KeyVisitor& v, SeasonOptions& s) {
   choice(
       v,
-      {"climate", "Course of the water content: normal, well watered (dries later), or cold (dries earlier)"},
+      {"climate",
+       "Course of the water content: normal, well watered, which dries later, or cold, which dries earlier"},
       s.climate, kClimates);
   if (v.given("climate")) s.water_curve.clear();  // a stated climate replaces an inherited curve
   v.curve(
@@ -34,7 +35,7 @@ void describe_course(KeyVisitor& v, SeasonOptions& s) {
           s.chlorophyll_curve, {0, 1}, Shape::falling);
   v.number({"onset_mean", "wd at which the median blade has lost half its chlorophyll"}, s.onset_mean,
            {0.1, 0.9});
-  v.number({"onset_sd", "Spread of that wd between blades (standard deviation)"}, s.onset_sd, {0, 0.3});
+  v.number({"onset_sd", "Spread of onset_mean between blades, a standard deviation"}, s.onset_sd, {0, 0.3});
   v.number({"tip_advance", "wd by which a blade's tip is ahead of its root"}, s.tip_advance, {0, 0.3});
 }
 
@@ -44,13 +45,15 @@ void describe_tissue(KeyVisitor& v, TissueOptions& t) {
   const Limits modulus{0.01, 1e5, "MPa"};
   v.number({"modulus_vein_fresh_MPa", "Young's modulus of the vein, fresh"}, t.modulus_vein_fresh_MPa,
            modulus);
-  v.number({"modulus_vein_dry_MPa", "... and dry (larger)"}, t.modulus_vein_dry_MPa, modulus);
+  v.number({"modulus_vein_dry_MPa", "Young's modulus of the vein, dry: larger than fresh"},
+           t.modulus_vein_dry_MPa, modulus);
   v.number({"modulus_mesophyll_fresh_MPa", "Young's modulus of the mesophyll, fresh"},
            t.modulus_mesophyll_fresh_MPa, modulus);
-  v.number({"modulus_mesophyll_dry_MPa", "... and dry (larger)"}, t.modulus_mesophyll_dry_MPa, modulus);
+  v.number({"modulus_mesophyll_dry_MPa", "Young's modulus of the mesophyll, dry: larger than fresh"},
+           t.modulus_mesophyll_dry_MPa, modulus);
   v.number({"bending_fresh_MPa", "Bending modulus of the whole blade, turgid"}, t.bending_fresh_MPa, modulus);
-  v.number({"bending_limp_MPa", "... without turgor"}, t.bending_limp_MPa, modulus);
-  v.number({"bending_dry_MPa", "... dried out"}, t.bending_dry_MPa, modulus);
+  v.number({"bending_limp_MPa", "Bending modulus without turgor"}, t.bending_limp_MPa, modulus);
+  v.number({"bending_dry_MPa", "Bending modulus dried out"}, t.bending_dry_MPa, modulus);
   v.check("modulus_vein_dry_MPa", t.modulus_vein_dry_MPa > t.modulus_vein_fresh_MPa,
           [] { return "tissue stiffens as it dries: must be greater than modulus_vein_fresh_MPa"; });
   v.check("modulus_mesophyll_dry_MPa", t.modulus_mesophyll_dry_MPa > t.modulus_mesophyll_fresh_MPa,
@@ -64,18 +67,19 @@ void describe_tissue(KeyVisitor& v, TissueOptions& t) {
   v.number({"dry_mass_fraction", "Dry mass over fresh mass"}, t.dry_mass_fraction, {0.05, 0.9});
   v.number({"volume_strain_vein", "Change of the vein's volume when all water is gone"}, t.volume_strain_vein,
            {-0.9, 0});
-  v.number({"volume_strain_mesophyll", "... and of the mesophyll's (shrinks more)"},
+  v.number({"volume_strain_mesophyll",
+            "Change of the mesophyll's volume when all water is gone: more than the vein's"},
            t.volume_strain_mesophyll, {-0.9, 0});
   v.check("volume_strain_vein", t.volume_strain_vein >= t.volume_strain_mesophyll,
           [] { return "the vein must not shrink more than the mesophyll (volume_strain_mesophyll)"; });
   v.number({"shrink_thickness", "Change of the blade's thickness, fresh to dry"}, t.shrink_thickness,
            {-0.9, 0});
-  v.number({"shrink_width", "Change of its width"}, t.shrink_width, {-0.9, 0});
-  v.number({"shrink_length", "Change of its length"}, t.shrink_length, {-0.5, 0});
+  v.number({"shrink_width", "Change of the blade's width, fresh to dry"}, t.shrink_width, {-0.9, 0});
+  v.number({"shrink_length", "Change of the blade's length, fresh to dry"}, t.shrink_length, {-0.5, 0});
   v.number({"creep_days", "Time in which a limp blade takes on its bent shape"}, t.creep_days,
            {0.1, 1000, "days"});
   v.number({"response_days", "Kelvin-Voigt time of bending"}, t.response_days, {0.02, 100, "days"});
-  v.number({"droop_rate_per_day", "Turning rate of a limp blade's tip (motion = \"paper\")"},
+  v.number({"droop_rate_per_day", "Turning rate of a limp blade's tip, for motion = \"paper\""},
            t.droop_rate_per_day, {0, 10, "rad/day"});
 }
 
@@ -111,14 +115,14 @@ void describe_texel(KeyVisitor& v, GrassOptions& o) {
 
 void describe_model(KeyVisitor& v, SceneTables& s) {
   GrassOptions& o = s.grass;
-  v.preset({"name",
-            "\"paper\" = the model of Jiao et al. 2010 as printed (motion, pigment_model and cone blades)"},
-           {"witherfield", "paper"}, "witherfield", [&](const std::string& name) {
-             const bool paper = name == "paper";
-             o.tissue.motion = paper ? Motion::paper : Motion::rod;
-             o.colour.model = paper ? PigmentModel::paper : PigmentModel::kubelka_munk;
-             s.blades.form = paper ? BladeForm::cone : BladeForm::ribbon;
-           });
+  v.preset(
+      {"name", "\"paper\" = the model of Jiao et al. 2010 as printed: motion, pigment_model and cone blades"},
+      {"witherfield", "paper"}, "witherfield", [&](const std::string& name) {
+        const bool paper = name == "paper";
+        o.tissue.motion = paper ? Motion::paper : Motion::rod;
+        o.colour.model = paper ? PigmentModel::paper : PigmentModel::kubelka_munk;
+        s.blades.form = paper ? BladeForm::cone : BladeForm::ribbon;
+      });
   choice(v, {"motion", "How blades droop: a bending rod, or the paper's turning about the root"},
          o.tissue.motion, kMotions);
   choice(v, {"pigment_model", "From pigments to a spectrum: Kubelka-Munk mixing, or the paper's subtraction"},
@@ -156,11 +160,11 @@ void describe_blades(KeyVisitor& v, BladeOptions& b) {
   v.number({"lean_sd_deg", "Spread of the inclination above that"}, b.lean_sd_deg, {0, 60, "deg"});
   range(v, {"curl_deg", "Natural bend: change of inclination from root to tip"}, b.curl_deg,
         {-180, 180, "deg"});
-  v.number({"twist_sd_deg", "Turn about the blade's own axis, root to tip (standard deviation)"},
+  v.number({"twist_sd_deg", "Turn about the blade's own axis, root to tip, a standard deviation"},
            b.twist_sd_deg, {0, 360, "deg"});
   range(v, {"fold_deg", "Half-angle of the V fold, 0 = flat"}, b.fold_deg, {0, 80, "deg"});
   v.number({"clumping", "Share of the blades that stand in tufts"}, b.clumping, {0, 1});
-  v.number({"tuft_radius_m", "Radius of a tuft (standard deviation)"}, b.tuft_radius_m, {0, 0.2, "m"});
+  v.number({"tuft_radius_m", "Radius of a tuft, a standard deviation"}, b.tuft_radius_m, {0, 0.2, "m"});
   v.whole({"blades_per_tuft", "Blades in a tuft"}, b.blades_per_tuft, {1, 1000, "blades"});
   v.whole({"segments", "Pieces of a blade's centre line"}, b.segments, {4, 128});
 }

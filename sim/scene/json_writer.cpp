@@ -12,7 +12,7 @@ class JsonWriter : public KeyVisitor {
   explicit JsonWriter(Json& out) : out_(out) { out_ = Json::object(); }
 
   void number(const Key& key, double& value, const Limits&) override { put(key, value); }
-  void optional_number(const Key& key, std::optional<double>& value, const Limits&) override {
+  void optional_number(const Key& key, std::optional<double>& value, const Limits&, double) override {
     if (value) put(key, *value);
   }
   void whole(const Key& key, int& value, const Limits&) override { put(key, value); }
@@ -67,7 +67,7 @@ class NameCollector : public KeyVisitor {
       : paths_(paths), prefix_(std::move(prefix)) {}
 
   void number(const Key& key, double&, const Limits&) override { add(key); }
-  void optional_number(const Key& key, std::optional<double>&, const Limits&) override { add(key); }
+  void optional_number(const Key& key, std::optional<double>&, const Limits&, double) override { add(key); }
   void whole(const Key& key, int&, const Limits&) override { add(key); }
   void seed(const Key& key, std::uint64_t&) override { add(key); }
   void flag(const Key& key, bool&) override { add(key); }

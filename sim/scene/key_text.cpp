@@ -37,10 +37,13 @@ std::string limits_text(const Limits& limits) {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  const auto distance = [&](const std::string& candidate) -> std::size_t {
+    const bool unit_forgotten = candidate.rfind(std::string(name) + "_", 0) == 0;
+    return unit_forgotten ? 1 : edit_distance(name, candidate);
+  };
   const auto nearest =
-      std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-      });
+      std::min_element(known.begin(), known.end(),
+                       [&](const std::string& a, const std::string& b) { return distance(a) < distance(b); });
   return nearest == known.end() ? std::string() : *nearest;
 }
 

@@ -39,7 +39,7 @@ class KeyVisitor {
   /// Each call names a key and the variable that holds its value: the default when called by a reader, which
   /// overwrites it.
   virtual void number(const Key&, double& value, const Limits&) = 0;
-  virtual void optional_number(const Key&, std::optional<double>& value, const Limits&) = 0;
+  virtual void optional_number(const Key&, std::optional<double>& value, const Limits&, double example) = 0;
   virtual void whole(const Key&, int& value, const Limits&) = 0;
   virtual void seed(const Key&, std::uint64_t& value) = 0;
   virtual void flag(const Key&, bool& value) = 0;

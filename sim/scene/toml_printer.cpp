@@ -28,8 +28,9 @@ class Printer : public KeyVisitor {
   void number(const Key& key, double& value, const Limits& limits) override {
     line(key, limits_text(limits), number_text(value));
   }
-  void optional_number(const Key& key, std::optional<double>& value, const Limits& limits) override {
-    line(key, limits_text(limits), number_text(value.value_or(limits.hi)), !value);
+  void optional_number(const Key& key, std::optional<double>& value, const Limits& limits,
+                       double example) override {
+    line(key, limits_text(limits), number_text(value.value_or(example)), !value);
   }
   void whole(const Key& key, int& value, const Limits& limits) override {
     line(key, limits_text(limits), std::to_string(value));
@@ -73,7 +74,7 @@ class Printer : public KeyVisitor {
 
  private:
   void line(const Key& key, const std::string& range, const std::string& value, bool commented = false) {
-    out_ += fmt::format("{}# {}{}\n", margin_, key.doc, range.empty() ? "." : " (" + range + ").");
+    out_ += fmt::format("{}# {}{}\n", margin_, key.doc, range.empty() ? "" : ". [" + range + "]");
     out_ += fmt::format("{}{}{} = {}\n", margin_, commented ? "# " : "", key.name, value);
   }
   void print_table(const Key& key, const char* open, const char* close, bool commented, const Body& body) {

@@ -20,14 +20,22 @@ struct TomlFile::Impl {
 
 namespace {
 
-/// The value as the user wrote it (nearly: in TOML's canonical form).
+/// The value as the user wrote it, nearly.
 std::string text_of(const toml::node& node) {
-  if (const auto* value = node.as_floating_point()) return number_text(value->get());
-  std::ostringstream out;
-  node.visit([&](const auto& n) { out << n; });
-  std::string text = out.str();
-  if (text.size() > 80) text = text.substr(0, 77) + "...";
-  return text;
+  std::string text;
+  if (const auto* number = node.as_floating_point()) {
+    text = number_text(number->get());
+  } else if (const auto* word = node.as_string()) {
+    text = '"' + word->get() + '"';
+  } else if (const auto* array = node.as_array()) {
+    for (const toml::node& item : *array) text += (text.empty() ? "" : ", ") + text_of(item);
+    text = fmt::format("[{}]", text);
+  } else {
+    std::ostringstream out;
+    node.visit([&](const auto& n) { out << n; });
+    text = out.str();
+  }
+  return text.size() > 80 ? text.substr(0, 77) + "..." : text;
 }
 
 bool within(double value, const Limits& l) {  // false for NaN
@@ -44,7 +52,7 @@ class Reader : public KeyVisitor {
   void number(const Key& key, double& value, const Limits& limits) override {
     if (const toml::node* node = find(key)) value = number_at(*node, full(key.name), limits);
   }
-  void optional_number(const Key& key, std::optional<double>& value, const Limits& limits) override {
+  void optional_number(const Key& key, std::optional<double>& value, const Limits& limits, double) override {
     if (const toml::node* node = find(key)) value = number_at(*node, full(key.name), limits);
   }
   void whole(const Key& key, int& value, const Limits& limits) override {

@@ -51,7 +51,7 @@ bool ends_with_png(std::string path) {
 void describe_dem(KeyVisitor& v, terrain::TerrainOptions& t) {
   v.text({"dem", "Elevation model: GeoTIFF, ESRI ASCII grid or 16-bit PNG; relative to this file's folder"},
          t.dem, {});
-  v.text({"mesh", "... or a mesh, OBJ or PLY, z up; exactly one of dem and mesh"}, t.mesh, {});
+  v.text({"mesh", "A mesh instead of a dem: OBJ or PLY, z up"}, t.mesh, {});
   v.check(t.dem.empty() ? "mesh" : "dem", t.dem.empty() != t.mesh.empty(), [&] {
     return t.dem.empty() ? "[terrain] needs a dem or a mesh" : "[terrain] takes a dem or a mesh, not both";
   });
@@ -112,12 +112,11 @@ void describe_view(KeyVisitor& v, Still& still, bool terrain) {
   still.height_px = size[1];
   Camera& c = still.camera;
   const Limits place{-kFarAway, kFarAway, "m"};
-  v.numbers({"camera_m",
-             "Position of the camera, x east, y north, z up from the terrain's lowest point (or the ground)"},
+  v.numbers({"camera_m", "Position of the camera: x east, y north, z up from the terrain's lowest point"},
             {&c.position_m.x, 3}, place, Order::any);
   v.optional_number({"camera_height_above_ground_m",
                      "If given, replaces camera_m's z: height above the terrain below the camera"},
-                    c.height_above_ground_m, {0, kFarAway, "m", true});
+                    c.height_above_ground_m, {0, kFarAway, "m", true}, 1.7);
   v.check("camera_height_above_ground_m", terrain || !c.height_above_ground_m,
           [] { return "needs a [terrain]; without one the ground is z = 0 m, so state z in camera_m"; });
   v.numbers({"look_at_m", "Point in the middle of the picture"}, {&c.look_at_m.x, 3}, place, Order::any);

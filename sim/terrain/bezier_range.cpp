@@ -14,7 +14,9 @@ Cubic left_part(const Cubic& b, double t) {
   return {b[0], p01, p012, p012 + t * (p123 - p012)};
 }
 
-Cubic reversed(const Cubic& b) { return {b[3], b[2], b[1], b[0]}; }
+Cubic reversed(const Cubic& b) {
+  return {b[3], b[2], b[1], b[0]};
+}
 
 Cubic restrict_cubic(const Cubic& b, double t0, double t1) {
   const Cubic left = t1 < 1 ? left_part(b, t1) : b;

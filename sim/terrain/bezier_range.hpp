@@ -1,5 +1,6 @@
-// Exact lowest and highest value of a piecewise bicubic function: a patch lies within its Bezier control values, so patches
-// whose control values cannot beat the best value found are left out and the others are split.
+// Exact lowest and highest value of a piecewise bicubic function: a patch lies within its Bezier control
+// values, so patches whose control values cannot beat the best value found are left out and the others are
+// split.
 #pragma once
 #include <array>
 

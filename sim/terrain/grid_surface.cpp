@@ -10,7 +10,8 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// Catmull & Rom 1974 (tension 1/2): weights of the samples at -1, 0, 1, 2 for a position u between samples 0 and 1.
+// Catmull & Rom 1974 (tension 1/2): weights of the samples at -1, 0, 1, 2 for a position u between samples 0
+// and 1.
 Weights catmull_rom(double u) {
   return {0.5 * u * (-1 + u * (2 - u)), 0.5 * (2 + u * u * (-5 + 3 * u)), 0.5 * u * (1 + u * (4 - 3 * u)),
           0.5 * u * u * (u - 1)};
@@ -21,7 +22,8 @@ Weights catmull_rom_slope(double u) {
           0.5 * u * (3 * u - 2)};
 }
 
-// The same cubic as Bezier control values: b0 = p1, b1 = p1 + (p2 - p0) / 6, b2 = p2 - (p3 - p1) / 6, b3 = p2.
+// The same cubic as Bezier control values: b0 = p1, b1 = p1 + (p2 - p0) / 6, b2 = p2 - (p3 - p1) / 6, b3 =
+// p2.
 std::array<double, 4> to_bezier(const std::array<double, 4>& p) {
   return {p[1], p[1] + (p[2] - p[0]) / 6, p[2] - (p[3] - p[1]) / 6, p[2]};
 }
@@ -101,7 +103,8 @@ glm::dvec2 GridSurface::gradient(double x_m, double y_m) const {
   return {g.x / dx_m_, g.y / dy_m_};
 }
 
-// The interpolant may pass the samples a little (Catmull-Rom overshoots), hence the search on the surface itself.
+// The interpolant may pass the samples a little (Catmull-Rom overshoots), hence the search on the surface
+// itself.
 std::array<double, 2> GridSurface::range() const {
   const double x1 = start_x_ + extent_.width_m / dx_m_, y1 = start_y_ + extent_.depth_m / dy_m_;
   const int i0 = std::clamp(int(std::floor(start_x_)), 0, nx_ - 2);

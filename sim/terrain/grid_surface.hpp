@@ -7,11 +7,12 @@
 
 namespace witherfield::terrain {
 
-/// Elevation samples and the rectangle cut from them. Sample (i, j) is z_m[j * nx + i], i to the east, j to the north.
+/// Elevation samples and the rectangle cut from them. Sample (i, j) is z_m[j * nx + i], i to the east, j to
+/// the north.
 struct DemGrid {
-  int nx = 0, ny = 0;            ///< at least 2 each
-  double dx_m = 0, dy_m = 0;     ///< between samples, > 0
-  std::vector<double> z_m;       ///< nx * ny, finite
+  int nx = 0, ny = 0;               ///< at least 2 each
+  double dx_m = 0, dy_m = 0;        ///< between samples, > 0
+  std::vector<double> z_m;          ///< nx * ny, finite
   double start_x = 0, start_y = 0;  ///< south-west corner of the rectangle, in samples from sample (0, 0)
   double width_m = 0, depth_m = 0;  ///< of the rectangle, which lies within the samples' hull
 };

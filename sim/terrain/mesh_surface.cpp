@@ -12,12 +12,14 @@
 namespace witherfield::terrain {
 namespace {
 
-constexpr double kTouch = 1e-9;    // overlaps below this part of the extent are rounding
-constexpr double kCovered = 1e-6;  // part of the crop that may stay uncovered (rounding along a ragged float edge)
+constexpr double kTouch = 1e-9;  // overlaps below this part of the extent are rounding
+constexpr double kCovered =
+    1e-6;  // part of the crop that may stay uncovered (rounding along a ragged float edge)
 
 }  // namespace
 
-MeshSurface::MeshSurface(const TriMesh& mesh, const double (&crop)[4], const std::string& file) : Surface({}) {
+MeshSurface::MeshSurface(const TriMesh& mesh, const double (&crop)[4], const std::string& file)
+    : Surface({}) {
   glm::dvec2 lo{std::numeric_limits<double>::infinity()}, hi = -lo;
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);
@@ -26,7 +28,8 @@ MeshSurface::MeshSurface(const TriMesh& mesh, const double (&crop)[4], const std
   }
   const glm::dvec2 size = hi - lo;
   if (!(size.x > 0) || !(size.y > 0))
-    throw InvalidInput(fmt::format("terrain.mesh: '{}' spans {} m x {} m seen from above, which is no area", file, size.x, size.y));
+    throw InvalidInput(fmt::format("terrain.mesh: '{}' spans {} m x {} m seen from above, which is no area",
+                                   file, size.x, size.y));
   extent_.width_m = size.x * (crop[2] - crop[0]);
   extent_.depth_m = size.y * (crop[3] - crop[1]);
   take_triangles(mesh, {lo.x + crop[0] * size.x, lo.y + crop[1] * size.y}, file);
@@ -53,14 +56,16 @@ void MeshSurface::take_triangles(const TriMesh& mesh, const glm::dvec2& corner, 
     for (k = 0; k < 3; ++k) t.p[k] = glm::dvec2(c[k][0], c[k][1]) - corner;
     if (clip_to_rectangle(t.p, extent_.width_m, extent_.depth_m).size() < 3) continue;
     if (n[2] <= 1e-9 * n.norm())
-      throw InvalidInput(fmt::format("terrain.mesh: '{}' is no height field: face {} (from 0) is {}, at ({}, {}, {}) m", file, f.idx(),
-                                     n[2] < -1e-9 * n.norm() ? "overhanging" : "vertical", c[0][0], c[0][1], c[0][2]));
+      throw InvalidInput(fmt::format(
+          "terrain.mesh: '{}' is no height field: face {} (from 0) is {}, at ({}, {}, {}) m", file, f.idx(),
+          n[2] < -1e-9 * n.norm() ? "overhanging" : "vertical", c[0][0], c[0][1], c[0][2]));
     t.z0 = c[0][2];
     t.slope = {-n[0] / n[2], -n[1] / n[2]};
     t.face = f.idx();
     triangles_.push_back(t);
   }
-  if (triangles_.empty()) throw InvalidInput(fmt::format("terrain.mesh: no face of '{}' lies in the crop", file));
+  if (triangles_.empty())
+    throw InvalidInput(fmt::format("terrain.mesh: no face of '{}' lies in the crop", file));
 }
 
 std::array<int, 2> MeshSurface::bin_of(const glm::dvec2& q) const {
@@ -88,7 +93,8 @@ void MeshSurface::fill_bins() {
     each_bin(triangles_[k], [&](std::size_t b) { bin_triangle_[std::size_t(next[b]++)] = int(k); });
 }
 
-// With all faces upward, a mesh can still pass over itself (a spiral ramp): no two triangles may overlap seen from above.
+// With all faces upward, a mesh can still pass over itself (a spiral ramp): no two triangles may overlap seen
+// from above.
 void MeshSurface::require_no_overlap(const std::string& file) const {
   const double tolerance = kTouch * std::max(extent_.width_m, extent_.depth_m);
   for (std::size_t b = 0; b + 1 < bin_start_.size(); ++b)
@@ -97,7 +103,9 @@ void MeshSurface::require_no_overlap(const std::string& file) const {
         const Triangle& s = triangles_[std::size_t(bin_triangle_[std::size_t(m)])];
         const Triangle& t = triangles_[std::size_t(bin_triangle_[std::size_t(n)])];
         if (overlap(s.p, t.p, tolerance))
-          throw InvalidInput(fmt::format("terrain.mesh: '{}' is no height field: face {} overhangs face {} (from 0)", file, s.face, t.face));
+          throw InvalidInput(
+              fmt::format("terrain.mesh: '{}' is no height field: face {} overhangs face {} (from 0)", file,
+                          s.face, t.face));
       }
 }
 
@@ -115,9 +123,11 @@ void MeshSurface::require_covered(const std::string& file) {
   }
   const double share = covered / (extent_.width_m * extent_.depth_m);
   if (share < 1 - kCovered)
-    throw InvalidInput(fmt::format("terrain.mesh: '{}' covers only {:.4f} % of the rectangle used (a hole, a ragged edge, or the file is cut "
-                                   "off); use terrain.crop or fill it",
-                                   file, 100 * share));
+    throw InvalidInput(
+        fmt::format("terrain.mesh: '{}' covers only {:.4f} % of the rectangle used (a hole, a ragged edge, "
+                    "or the file is cut "
+                    "off); use terrain.crop or fill it",
+                    file, 100 * share));
 }
 
 const MeshSurface::Triangle& MeshSurface::find(const glm::dvec2& q) const {

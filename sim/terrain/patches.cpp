@@ -13,24 +13,29 @@ namespace {
 
 double lattice_value(std::uint64_t seed, int octave, std::int64_t i, std::int64_t j) {
   constexpr std::uint64_t mask = (1u << 28) - 1;
-  return Random(seed, Stream::noise, std::uint64_t(octave) << 56 | (std::uint64_t(j) & mask) << 28 | (std::uint64_t(i) & mask)).uniform();
+  return Random(seed, Stream::noise,
+                std::uint64_t(octave) << 56 | (std::uint64_t(j) & mask) << 28 | (std::uint64_t(i) & mask))
+      .uniform();
 }
 
-// Value noise: random values at the corners of a lattice, blended with the quintic 6 t^5 - 15 t^4 + 10 t^3 (C2, Perlin 2002).
+// Value noise: random values at the corners of a lattice, blended with the quintic 6 t^5 - 15 t^4 + 10 t^3
+// (C2, Perlin 2002).
 double value_noise(std::uint64_t seed, int octave, double x, double y) {
   const double fx = std::floor(x), fy = std::floor(y);
   const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   const double u = fade(x - fx), v = fade(y - fy);
   const auto i = std::int64_t(fx), j = std::int64_t(fy);
   const double south = std::lerp(lattice_value(seed, octave, i, j), lattice_value(seed, octave, i + 1, j), u);
-  const double north = std::lerp(lattice_value(seed, octave, i, j + 1), lattice_value(seed, octave, i + 1, j + 1), u);
+  const double north =
+      std::lerp(lattice_value(seed, octave, i, j + 1), lattice_value(seed, octave, i + 1, j + 1), u);
   return std::lerp(south, north, v);
 }
 
 // Two octaves on lattices turned against each other, so that patches show no grid. In [0, 1].
 double smooth_noise(std::uint64_t seed, double x, double y) {
   constexpr double c = 0.8, s = 0.6;
-  return (2 * value_noise(seed, 0, x, y) + value_noise(seed, 1, 2 * (c * x - s * y), 2 * (s * x + c * y))) / 3;
+  return (2 * value_noise(seed, 0, x, y) + value_noise(seed, 1, 2 * (c * x - s * y), 2 * (s * x + c * y))) /
+         3;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What a terrain is made of: one height field over a rectangle, in true metres. Two kinds: a grid of samples and a mesh.
+// What a terrain is made of: one height field over a rectangle, in true metres. Two kinds: a grid of samples
+// and a mesh.
 #pragma once
 #include <glm/vec2.hpp>
 

@@ -6,8 +6,9 @@
 
 namespace witherfield::terrain {
 
-/// @throws IoFailure when the file is missing, cut off or malformed; InvalidInput when it is neither .obj nor .ply, has coordinates that are
-/// not finite, faces that name missing vertices, or edges that do not join exactly two consistently oriented faces.
+/// @throws IoFailure when the file is missing, cut off or malformed; InvalidInput when it is neither .obj nor
+/// .ply, has coordinates that are not finite, faces that name missing vertices, or edges that do not join
+/// exactly two consistently oriented faces.
 TriMesh read_terrain_mesh(const std::string& file);
 
 }  // namespace witherfield::terrain

@@ -6,7 +6,8 @@
 namespace witherfield::terrain {
 namespace {
 
-// Separating axis: true when some edge of `a` has all of `b` on its outer side or less than `tolerance` within.
+// Separating axis: true when some edge of `a` has all of `b` on its outer side or less than `tolerance`
+// within.
 bool separated_by_edge(const Triangle2& a, const Triangle2& b, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::dvec2 &p = a[k], &q = a[(k + 1) % 3];

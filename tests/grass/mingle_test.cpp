@@ -64,6 +64,13 @@ TEST(Mingle, DensityIsTheSumAndTheRestTheWeightedMean) {
   }
 }
 
+TEST(Mingle, OnATieTheFirstSampleNamesTheVoxel) {
+  const TexelGrid a = one_voxel(0.5f, 1, {0, 0, 1}, {1, 0, 0}, 1),
+                  b = one_voxel(0.5f, 1, {0, 0, 1}, {1, 0, 0}, 3);
+  EXPECT_EQ(mingle({&a, &b}).at(5, 5, 5, C::blade_id), 1);
+  EXPECT_EQ(mingle({&b, &a}).at(5, 5, 5, C::blade_id), 3);
+}
+
 TEST(Mingle, OppositeTangentsAreTheSameFibre) {
   const glm::vec3 t = glm::normalize(glm::vec3(1, 2, 3)), n(0.8f, 0, -0.6f);
   const TexelGrid a = one_voxel(0.5f, 1, t, n, 1), b = one_voxel(0.4f, 1, -t, -n, 2);

@@ -84,8 +84,8 @@ TEST(Voxelize, AxisAlignedStripCoversExactFractionsVoxelByVoxel) {
             << i << ' ' << j << ' ' << k;
 }
 
-// Folded by 60 degrees the halves rise along +normal = side x tangent (here -y... toward y below the root's)
-// and each covers 1 / cos(60) of its shadow on the x axis.
+// Folded by 60 degrees the halves rise along +normal = side x tangent, and each covers 1 / cos(60) of its
+// shadow on the x axis.
 TEST(Voxelize, FoldedStripRisesAlongTheNormal) {
   const double h = 1.0 / 64, fold = std::acos(0.5), w = 4;
   BladeShape shape = strip_across_x({8 * h, 8 * h, 0}, 8 * h, w * h);
@@ -156,15 +156,17 @@ TEST(Voxelize, TissueSharesAreExact) {
 
 TEST(Voxelize, VeinIsTheMiddleOfTheBlade) {
   const double h = 1.0 / 64;
-  // 12 voxels wide around x = 8; vein where |x - 8| < 0.25 * 6 = 1.5: voxels 7 and 8 wholly, 6 and 9 by half.
-  const TexelGrid g =
-      voxelize(make_state(BladeForm::ribbon, 3, {strip_across_x({8 * h, 8.5 * h, 0}, 8 * h, 6 * h)}),
-               cube(16, h), 0.25);
-  for (int i = 2; i < 14; ++i) {
-    const double share = i == 7 || i == 8 ? 1 : i == 6 || i == 9 ? 0.5 : 0;
-    EXPECT_NEAR(g.at(i, 8, 3, C::strain_shrink), share * kStrainVein + (1 - share) * kStrainMesophyll, 1e-6)
-        << i;
-    if (share != 0.5) EXPECT_EQ(g.at(i, 8, 3, C::tissue), share == 1 ? 1 : 2) << i;
+  // 12 voxels wide around x = 8; vein where |x - 8| < reach: voxels 7 and 8 wholly, 6 and 9 in part.
+  for (double reach : {1.3, 1.7}) {
+    const BladeState state =
+        make_state(BladeForm::ribbon, 3, {strip_across_x({8 * h, 8.5 * h, 0}, 8 * h, 6 * h)});
+    const TexelGrid g = voxelize(state, cube(16, h), reach / 6);
+    for (int i = 2; i < 14; ++i) {
+      const double share = i == 7 || i == 8 ? 1 : i == 6 || i == 9 ? reach - 1 : 0;
+      EXPECT_NEAR(g.at(i, 8, 3, C::strain_shrink), share * kStrainVein + (1 - share) * kStrainMesophyll, 1e-6)
+          << i;
+      EXPECT_EQ(g.at(i, 8, 3, C::tissue), share > 0.5 ? 1 : 2) << i;
+    }
   }
 }
 
@@ -215,6 +217,26 @@ TEST(Voxelize, LargestBladeNamesTheVoxel) {
     EXPECT_NEAR(g.at(8, 8, k, C::arc), (k + 0.5) / 8, 1e-6);
     // Water: mean of three blades that differ by 0.01, weighted 0.4 : 0.8 : 0.6.
     EXPECT_NEAR(g.at(8, 8, k, C::water), water_at(0, (k + 0.5) / 8) - 0.01 * (0.8 + 2 * 0.6) / 1.8, 1e-6);
+  }
+}
+
+// One wide strip facing y, rising; four narrow ones facing x, two of them hanging down. The frame is the wide
+// one's, although there are more of the others, and its signs are not those of what comes last.
+TEST(Voxelize, FrameIsWeightedByAreaAndAxial) {
+  const double h = 1.0 / 64, pi = 3.14159265358979324;
+  std::vector<BladeShape> shapes{strip_across_x({8.5 * h, 8.5 * h, 0}, 8 * h, 0.45 * h)};
+  for (int i = 0; i < 4; ++i) {
+    BladeShape narrow = strip_across_x({(8.2 + 0.2 * i) * h, 8.5 * h, i < 2 ? 0 : 8 * h}, 8 * h, 0.05 * h);
+    narrow.turn = 0.5 * pi, narrow.lean = i < 2 ? 0 : pi;
+    shapes.push_back(narrow);
+  }
+  const BladeState state = make_state(BladeForm::ribbon, 4, shapes);
+  const glm::dvec3 normal = blade_normal(state.tangent[0], state.side[0]);
+  const TexelGrid g = voxelize(state, cube(16, h), kVein);
+  for (int k = 0; k < 8; ++k) {
+    EXPECT_NEAR(g.at(8, 8, k, C::density), 1.3, 1e-5);
+    EXPECT_GT(vector_at(g, 8, 8, k, C::tangent_x).z, 1 - 1e-6);
+    EXPECT_GT(glm::dot(vector_at(g, 8, 8, k, C::normal_x), normal), 1 - 1e-3);
   }
 }
 
@@ -349,6 +371,10 @@ TEST(Voxelize, RejectsWhatCannotBeVoxelised) {
   bad = good;
   bad.segments = 7;
   EXPECT_THROW(voxelize(bad, shape, kVein), InvalidInput);
+  bad = good;
+  bad.side[2].x = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(voxelize(bad, shape, kVein), InvalidInput);
+  EXPECT_THROW(voxelize(good, cube(16, 0.01, 8), kVein), InvalidInput);
 }
 
 TEST(PrincipalAxis, FindsTheLongestAxisWhateverTheGuess) {
@@ -359,14 +385,18 @@ TEST(PrincipalAxis, FindsTheLongestAxisWhateverTheGuess) {
     const glm::vec3 a = random(), b = glm::normalize(glm::cross(a, random())), c = glm::cross(a, b);
     float m[6] = {};
     const float scale = std::exp(8 * normal(bits));
-    add_dyad(m, scale, a), add_dyad(m, -0.0f, b), add_dyad(m, 0.6f * scale, b), add_dyad(m, 0.2f * scale, c);
+    add_dyad(m, scale, a), add_dyad(m, 0.6f * scale, b), add_dyad(m, 0.2f * scale, c);
     const glm::vec3 guess = round % 2 ? b : random(), axis = principal_axis(m, guess);
     EXPECT_NEAR(std::abs(glm::dot(axis, a)), 1, 1e-5);
     EXPECT_NEAR(glm::length(axis), 1, 1e-6);
-    if (round % 2 == 0) EXPECT_GE(glm::dot(axis, guess), 0);
+    if (round % 2 == 0) {
+      EXPECT_GE(glm::dot(axis, guess), 0);
+    }
   }
   const float none[6] = {};
   EXPECT_EQ(principal_axis(none, {0, 1, 0}), glm::vec3(0, 1, 0));
+  const float across[6] = {1, 0, 0, 0, 0, 0};
+  EXPECT_EQ(principal_axis(across, {0, 1, 0}), glm::vec3(1, 0, 0));
   const float alike[6] = {1, 0, 0, 1, 0, 1};
   EXPECT_NEAR(glm::dot(principal_axis(alike, {0.6f, 0, 0.8f}), glm::vec3(0.6f, 0, 0.8f)), 1, 1e-6);
 }

@@ -42,13 +42,13 @@ TEST(SceneErrors, RangeUpsideDown) {
 
 TEST(SceneErrors, WrongTypes) {
   EXPECT_EQ(error_of("[season]\nlength_days = \"60\"\n"),
-            "scene.toml:3: season.length_days = '60': must be a number, 1..1000 days");
+            "scene.toml:3: season.length_days = \"60\": must be a number, 1..1000 days");
   EXPECT_EQ(error_of("[blades]\ncount = 3.5\n"),
             "scene.toml:3: blades.count = 3.5: must be a whole number, 1..100000 blades");
   EXPECT_EQ(error_of("[blades]\nlength_m = 0.1\n"),
             "scene.toml:3: blades.length_m = 0.1: must be a list of 2 numbers");
   EXPECT_EQ(error_of("[blades]\nlength_m = [0.1]\n"),
-            "scene.toml:3: blades.length_m = [ 0.1 ]: must be a list of 2 numbers");
+            "scene.toml:3: blades.length_m = [0.1]: must be a list of 2 numbers");
   EXPECT_EQ(error_of("[output]\npov = 1\n"), "scene.toml:3: output.pov = 1: must be true or false");
   EXPECT_EQ(error_of("seed = -1\n"),
             "scene.toml:2: seed = -1: must be a whole number, 0..9223372036854775807");
@@ -79,20 +79,20 @@ TEST(SceneErrors, TheFirstUnknownKeyInTheFileIsReported) {
 
 TEST(SceneErrors, UnknownWordSuggestsTheNearest) {
   EXPECT_EQ(error_of("[season]\nclimate = \"wet\"\n")
-                .rfind("scene.toml:3: season.climate = 'wet': must be \"standard\", \"water_rich\" or "
+                .rfind("scene.toml:3: season.climate = \"wet\": must be \"standard\", \"water_rich\" or "
                        "\"cold\"; did you mean",
                        0),
             0u);
   EXPECT_NE(error_of("[blades]\nspecies = \"tall_fescu\"\n").find("did you mean \"tall_fescue\"?"),
             std::string::npos);
   EXPECT_NE(error_of("[view]\nlooks = [\"blade\"]\n")
-                .find("view.looks[0] = 'blade': must be \"texel\" or \"blades\""),
+                .find("view.looks[0] = \"blade\": must be \"texel\" or \"blades\""),
             std::string::npos);
 }
 
 TEST(SceneErrors, CurveNotMonotoneInTime) {
   EXPECT_EQ(error_of("[season]\nwater_curve = [[0, 1],\n [0.5, 0.6],\n [0.4, 0.3], [1, 0]]\n"),
-            "scene.toml:5: season.water_curve[2] = [ 0.4, 0.3 ]: a curve's time must increase from key to "
+            "scene.toml:5: season.water_curve[2] = [0.4, 0.3]: a curve's time must increase from key to "
             "key, but wd 0.4 comes after 0.5");
   EXPECT_NE(error_of("[season]\nwater_curve = [[0, 1], [0, 0.5]]\n").find("time must increase"),
             std::string::npos);
@@ -100,11 +100,10 @@ TEST(SceneErrors, CurveNotMonotoneInTime) {
 
 TEST(SceneErrors, CurveNotMonotoneInValue) {
   EXPECT_EQ(error_of("[season]\nchlorophyll_curve = [[0, 0.5], [1, 0.6]]\n"),
-            "scene.toml:3: season.chlorophyll_curve[1] = [ 1, 0.6 ]: the curve must not rise, but 0.6 comes "
+            "scene.toml:3: season.chlorophyll_curve[1] = [1, 0.6]: the curve must not rise, but 0.6 comes "
             "after 0.5");
-  EXPECT_EQ(
-      error_of("[[mingle]]\nageing = [[0, 0.5], [1, 0.4]]\n"),
-      "scene.toml:3: mingle[0].ageing[1] = [ 1, 0.4 ]: the curve must not fall, but 0.4 comes after 0.5");
+  EXPECT_EQ(error_of("[[mingle]]\nageing = [[0, 0.5], [1, 0.4]]\n"),
+            "scene.toml:3: mingle[0].ageing[1] = [1, 0.4]: the curve must not fall, but 0.4 comes after 0.5");
 }
 
 TEST(SceneErrors, CurveMalformed) {
@@ -137,16 +136,16 @@ TEST(SceneErrors, StillMustShowAKeyFrame) {
 }
 
 TEST(SceneErrors, StillNames) {
-  EXPECT_NE(error_of("[[still]]\nname = \"A b\"\n").find("scene.toml:3: still[0].name = 'A b'"),
+  EXPECT_NE(error_of("[[still]]\nname = \"A b\"\n").find("scene.toml:3: still[0].name = \"A b\""),
             std::string::npos);
   EXPECT_NE(error_of("[[still]]\nwd = 0\n").find("scene.toml:2: still[0].name: a still needs a name"),
             std::string::npos);
   EXPECT_EQ(error_of(kStill + kStill),
-            "scene.toml:6: still[1].name = 'a': two stills must not have the same name");
+            "scene.toml:6: still[1].name = \"a\": two stills must not have the same name");
 }
 
 TEST(SceneErrors, RunNameIsAFileName) {
-  EXPECT_NE(error_of("name = \"../x\"\n").find("scene.toml:2: name = '../x'"), std::string::npos);
+  EXPECT_NE(error_of("name = \"../x\"\n").find("scene.toml:2: name = \"../x\""), std::string::npos);
 }
 
 TEST(SceneErrors, Terrain) {
@@ -154,7 +153,7 @@ TEST(SceneErrors, Terrain) {
             "scene.toml:2: terrain.mesh: [terrain] needs a dem or a mesh");
   EXPECT_NE(error_of(kHill + "mesh = \"a.obj\"\n").find("not both"), std::string::npos);
   EXPECT_NE(error_of("[terrain]\ndem = \"a.PNG\"\n")
-                .find("scene.toml:3: terrain.dem = 'a.PNG': a PNG has no scale"),
+                .find("scene.toml:3: terrain.dem = \"a.PNG\": a PNG has no scale"),
             std::string::npos);
   EXPECT_NE(error_of(kHill + "crop = [0, 0.5, 1, 0.5]\n").find("scene.toml:4: terrain.crop"),
             std::string::npos);

@@ -18,8 +18,8 @@ std::string with_name(GrassScene scene, const std::string& name) {
 
 /// The printed defaults with their commented-out tables and keys made live.
 std::string uncommented(const std::string& text) {
-  static const std::regex code("^# (#? ?)(\\[+[a-z]+\\]+|[A-Za-z0-9_]+ = .*)$");
-  static const std::regex inner("^# ([A-Za-z0-9_]+ = .*)$");
+  static const std::regex code("^# (#? ?)(\\[+[a-z]+\\]+|[a-z][A-Za-z0-9_]* = .*)$");
+  static const std::regex inner("^# ([a-z][A-Za-z0-9_]* = .*)$");
   std::istringstream in(text);
   std::string line, out;
   while (std::getline(in, line)) {

@@ -1,0 +1,68 @@
+// witherfield: withering vegetation, simulated, written as VTK data and rendered. This program joins the
+// libraries; it alone prints.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "sim/core/errors.hpp"
+
+namespace {
+
+constexpr const char* kDescription =
+    "witherfield - grass that withers, simulated as time-varying volumes\n\n"
+    "A scene file (TOML) is simulated into a run: a folder with VTK data for ParaView and with POV-Ray\n"
+    "scenes, which are then turned into pictures.";
+
+constexpr const char* kFooter =
+    "\nFrom a scene to pictures:\n"
+    "  witherfield run --print-defaults grass > meadow.toml    a commented scene to start from\n"
+    "  witherfield run meadow.toml --preview                   try it, small and quick\n"
+    "  witherfield run meadow.toml                             simulate; writes out/meadow\n"
+    "  witherfield render out/meadow                           POV-Ray pictures, in out/meadow/images\n"
+    "  witherfield volume out/meadow --field water --wd 0.3 -o water.png\n"
+    "  paraview out/meadow/grass.pvd                           look at the data\n\n"
+    "`witherfield COMMAND --help` explains each command.\n"
+    "Exit codes: 0 done, 1 a check failed, 2 wrong input, 3 a file or program failed, 4 a solver failed.";
+
+int fail(const std::string& message, int code) {
+  fmt::print(stderr, "witherfield: error: {}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace witherfield;
+  cli::install_signal_handlers();
+  bool quiet = false;
+  CLI::App app(kDescription, "witherfield");
+  app.footer(kFooter);
+  app.set_version_flag("--version", std::string("witherfield ") + cli::kProgramVersion,
+                       "Show the version and exit");
+  app.set_help_flag("-h,--help", "Show this help and exit");
+  app.add_flag("-q,--quiet", quiet, "No progress, no remarks; results and errors only");
+  app.require_subcommand(1);
+  app.fallthrough();
+  cli::add_run_command(app, quiet);
+  cli::add_render_command(app, quiet);
+  cli::add_volume_command(app, quiet);
+  cli::add_info_command(app, quiet);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const Error& e) {
+    return fail(e.what(), e.exit_code());
+  } catch (const cli::Interrupted& e) {
+    return fail("interrupted", 128 + e.signal);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; try fewer variants, a smaller texel.resolution, or --preview", 4);
+  } catch (const std::exception& e) {
+    return fail(std::string("internal error, please report it: ") + e.what(), 4);
+  }
+}

@@ -1,0 +1,70 @@
+// witherfield run: simulate a scene, write its data and its POV-Ray scenes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/grass_run.hpp"
+#include "sim/core/errors.hpp"
+#include "sim/scene/scene.hpp"
+
+namespace witherfield::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "\nExamples:\n"
+    "  witherfield run examples/hillside.toml                 writes out/hillside\n"
+    "  witherfield run examples/hillside.toml --preview -o try   a small version in seconds, to check a "
+    "scene\n"
+    "  witherfield run meadow.toml --resume                   go on after an interruption or a full disk\n"
+    "  witherfield run --print-defaults grass > my.toml       every key, commented, with its default and "
+    "range\n\n"
+    "A run holds grass.pvd (open it in ParaView; or view_in_paraview.py, which sets colours and legends),\n"
+    "texel/, optics/, points/ (the key frames), terrain.vtp, pov/ (scenes for `witherfield render`) and\n"
+    "run.json (the scene with every default, value ranges, checks, timings), written last.\n"
+    "The same scene gives the same files, byte for byte, for any number of threads.";
+
+struct Options {
+  RunRequest request;
+  std::string print_defaults;
+};
+
+void run(Options& o, const bool& quiet) {
+  if (!o.print_defaults.empty()) {
+    fmt::print("{}", scene::print_defaults(o.print_defaults));
+    return;
+  }
+  if (o.request.scene.empty())
+    throw InvalidInput(
+        "run needs a scene file, e.g. `witherfield run examples/hillside.toml`; see `witherfield run "
+        "--help`");
+  Console console(quiet);
+  scene::scene_kind(o.request.scene);  // the only kind so far is grass; anything else is an error there
+  run_grass(o.request, console);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, const bool& quiet) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* c = app.add_subcommand("run", "Simulate a scene: VTK data, POV-Ray scenes, run.json");
+  c->footer(kFooter);
+  c->add_option("SCENE", o->request.scene, "Scene file (TOML)");
+  c->add_option("-o,--output", o->request.folder, "Folder of the run (default: out/NAME of the scene)");
+  c->add_option("--threads", o->request.threads, "Threads; 0 = all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  c->add_flag("--preview", o->request.preview, "Small grid, few frames and texels, small pictures");
+  CLI::Option* resume =
+      c->add_flag("--resume", o->request.resume, "Finish a run of this very scene that was broken off");
+  c->add_flag("--force", o->request.force, "Replace the run that is in the folder (removes its files only)")
+      ->excludes(resume);
+  c->add_option("--print-defaults", o->print_defaults,
+                "Print a complete commented scene of KIND (grass) and exit")
+      ->type_name("KIND");
+  c->callback([o, &quiet] { run(*o, quiet); });
+}
+
+}  // namespace witherfield::cli

@@ -1,0 +1,113 @@
+// witherfield volume: a picture of a field, made with VTK, without a display.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/run_record.hpp"
+#include "sim/core/errors.hpp"
+#include "sim/core/fields.hpp"
+#include "sim/core/texel_grid.hpp"
+#include "vis/volume.hpp"
+
+namespace witherfield::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFooter =
+    "\nExamples:\n"
+    "  witherfield volume out/hillside --field water --wd 0.3 -o water.png\n"
+    "  witherfield volume out/hillside --field stress_vein_MPa --day 40 --surface -o stress.png\n"
+    "  witherfield volume out/hillside/texel/texel_0002.vti --azimuth 30 --elevation 60 -o top.png\n\n"
+    "Fields: density, water, chlorophyll_ug_cm2, stress_vein_MPa, stress_mesophyll_MPa, strain_shrink, "
+    "tissue,\n"
+    "blade_id; and normal, tangent, diffuse, specular (from the optics files).\n"
+    "The colour scale is that of the whole run, so that pictures of different days can be compared; --range "
+    "sets another.\n"
+    "No display is needed.";
+
+struct Options {
+  std::string input, png, size, range;
+  std::optional<double> day, wd;
+  vis::VolumeOptions volume;
+};
+
+bool is_optics(const std::string& field) {
+  for (const TexelField& f : texel_fields())
+    if (f.name == field) return f.optics;
+  return false;
+}
+
+/// The file of the run's key frame nearest to the wanted time; the last one when no time is given.
+fs::path frame_file(const Options& o, Console& console) {
+  const RunSummary run = read_run(o.input);
+  const bool optics = is_optics(o.volume.field);
+  const FrameRecord* best = nullptr;
+  double best_distance = 0;
+  for (const FrameRecord& f : run.frames) {
+    if (f.variant != 0 || (optics ? f.optics : f.texel).empty()) continue;
+    const double distance = o.day ? std::abs(f.time_days - *o.day) : o.wd ? std::abs(f.wd - *o.wd) : -f.wd;
+    if (!best || distance < best_distance) best = &f, best_distance = distance;
+  }
+  if (!best)
+    throw InvalidInput(
+        fmt::format("'{}' has no {} files: set output.{} = true in the scene file and run it again", o.input,
+                    optics ? "optics" : "texel", optics ? "optics" : "fields"));
+  console.note(fmt::format("key frame at wd {:.4g}, day {:.4g}", best->wd, best->time_days));
+  return fs::path(o.input) / (optics ? best->optics : best->texel);
+}
+
+void volume(Options& o, const bool& quiet) {
+  Console console(quiet);
+  field_spec(o.volume.field);  // an unknown name is an error here, with the nearest known one
+  if (!o.size.empty()) std::tie(o.volume.width_px, o.volume.height_px) = parse_size(o.size);
+  if (!o.range.empty()) o.volume.range = parse_range(o.range);
+  fs::path file = o.input;
+  if (!fs::exists(file)) throw IoFailure("'" + o.input + "': no such file or folder");
+  if (fs::is_directory(file))
+    file = frame_file(o, console);
+  else if (o.day || o.wd)
+    throw InvalidInput("--day and --wd choose a key frame of a run's folder; '" + o.input +
+                       "' is a single file");
+  vis::render_volume(file, o.png, o.volume);
+  console.say(o.png);
+}
+
+}  // namespace
+
+void add_volume_command(CLI::App& app, const bool& quiet) {
+  const auto o = std::make_shared<Options>();
+  CLI::App* c =
+      app.add_subcommand("volume", "Picture of a field (volume rendering or a surface), without a display");
+  c->footer(kFooter);
+  c->add_option("INPUT", o->input, "A .vti file (with --surface also .vtp), or the folder of a run")
+      ->required();
+  c->add_option("-o,--output", o->png, "Picture to write (PNG)")->required();
+  c->add_option("--field", o->volume.field, "What to show")->capture_default_str();
+  c->add_flag("--surface", o->volume.surface,
+              "The surface of the grass coloured by the field: quicker than the volume");
+  CLI::Option* day = c->add_option("--day", o->day, "Key frame of a run nearest to this day");
+  c->add_option("--wd", o->wd, "Key frame of a run nearest to this weathering degree")
+      ->check(CLI::Range(0.0, 1.0))
+      ->excludes(day);
+  c->add_option("--azimuth", o->volume.azimuth_deg, "Camera, degrees counter-clockwise from +x")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  c->add_option("--elevation", o->volume.elevation_deg, "Camera, degrees above the ground")
+      ->check(CLI::Range(-89.0, 89.0))
+      ->capture_default_str();
+  c->add_option("--zoom", o->volume.zoom, "Larger is nearer")
+      ->check(CLI::Range(0.05, 50.0))
+      ->capture_default_str();
+  c->add_option("--size", o->size, "Size of the picture (default 1280x720)")->type_name("WxH");
+  c->add_option("--range", o->range, "Ends of the colour scale, in the field's unit")->type_name("LO,HI");
+  c->callback([o, &quiet] { volume(*o, quiet); });
+}
+
+}  // namespace witherfield::cli

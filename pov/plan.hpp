@@ -1,0 +1,66 @@
+// What of a run a picture shows and how finely: the instances inside the view, their level of detail, the meadow around the
+// terrain's cut borders, and boxes for the media that never share a face.
+#pragma once
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pov/scene_writer.hpp"
+
+namespace witherfield::pov {
+
+/// POV-Ray ignores hits nearer than 1e-4 units and loses grazing ones below 1e-3: a tile is made this many units wide.
+inline constexpr double kUnitsPerTile = 10.0;
+
+/// The eye as a pinhole, for culling and for pixel sizes.
+struct Eye {
+  glm::dvec3 position_m, forward, right, up;
+  double tan_x, tan_y;     ///< half extents of the picture at distance 1
+  double pixels_per_rad;   ///< at the middle of the picture
+  explicit Eye(const Still& still);
+  /// Does a sphere show, or could what is within `reach_m` of it?
+  bool sees(const glm::dvec3& centre_m, double radius_m) const;
+};
+
+/// One texel that is drawn. `at.lod` is what the picture uses.
+struct Stand {
+  TexelInstance at;
+  bool near = false;         ///< near texels keep the blades that lean out of their tile, so no blade is cut
+  double distance_m = 0;
+  int orientation() const { return at.quarter_turns + (at.mirrored ? 4 : 0); }
+};
+
+/// The ground around a placement: height of the extended border, falling to a level plain.
+class Surroundings {
+ public:
+  Surroundings(const Placement& placement);
+  double height_m(double x_m, double y_m) const;  ///< beyond the placement; on its border the terrain's own
+  double plain_m() const { return plain_m_; }
+  double reach_m() const { return reach_m_; }     ///< where the plain begins
+  int cells() const { return cells_; }            ///< width of the ring of extra texels
+  double low_x_m() const { return x0_; }
+  double low_y_m() const { return y0_; }
+  double high_x_m() const { return x1_; }
+  double high_y_m() const { return y1_; }
+
+ private:
+  const Placement* placement_;
+  double x0_, y0_, x1_, y1_, plain_m_, reach_m_;
+  int cells_;
+};
+
+/// Instances to draw: those of the placement in view (LOD never finer than half a pixel a voxel), and a ring of texels
+/// around it so that the hill does not end in a cut. @param margin_m how far outside the view an instance still matters.
+std::vector<Stand> plan_stands(const SceneInput& input, const Surroundings* around, double margin_m);
+
+/// Inset of a texel's box on its sides and bottom, in tiles: > 0, and different for all neighbours that touch or overlap
+/// (coincident faces make POV-Ray lose whole boxes).
+double box_inset(int cell_i, int cell_j);
+
+/// Direction or position of the world in the frame of a texel instance (inverse of its mirror and quarter turns).
+glm::dvec3 to_local_direction(const TexelInstance& t, const glm::dvec3& world);
+/// POV-Ray's "matrix<...>" that takes texel coordinates (flipped, in units) to the world.
+std::string instance_matrix(const TexelInstance& t, double tile_m, double unit);
+
+}  // namespace witherfield::pov

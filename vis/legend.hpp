@@ -1,0 +1,40 @@
+// What is written around the data in a picture: colour bar or legend, caption, box with axes. Drawn into a
+// vtkRenderer.
+#pragma once
+#include <array>
+#include <string>
+
+#include "vis/colour_map.hpp"
+#include "vis/framing.hpp"
+
+class vtkRenderer;
+
+namespace witherfield::vis {
+
+/// Sizes of the picture's parts, in pixels; everything scales with the picture.
+struct Layout {
+  int width_px = 0, height_px = 0;
+  double unit = 1;  ///< 1 at 1280 x 720
+  explicit Layout(int width, int height);
+  int font(double size) const;
+  /// Room of the data: left of the colour bar, with space for the axes' numbers.
+  std::array<double, 4> data_rectangle() const;
+};
+
+/// Colour bar with ticks, or a list of categories; title above it with its unit ("" = none) on a line of its
+/// own.
+void add_colour_bar(vtkRenderer& renderer, const Layout& layout, const ColourMap& map,
+                    const std::string& title, const std::string& unit);
+/// Text alone where the colour bar would be (colours that are the data themselves).
+void add_legend_text(vtkRenderer& renderer, const Layout& layout, const std::string& text);
+/// Upper left corner.
+void add_caption(vtkRenderer& renderer, const Layout& layout, const std::string& text);
+/// The ground rectangle of the box, a vertical edge, and ticks with numbers and names on the edges toward the
+/// viewer.
+void add_axes(vtkRenderer& renderer, const Layout& layout, const Framing& framing,
+              const std::array<double, 6>& bounds, const std::string& length_unit);
+
+/// "ug/cm2" -> "µg/cm²" and the like, for people's eyes.
+std::string typeset_unit(const std::string& unit);
+
+}  // namespace witherfield::vis
