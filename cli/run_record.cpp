@@ -1,5 +1,7 @@
 #include "cli/run_record.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -16,13 +18,16 @@ using Json = nlohmann::ordered_json;
 constexpr double kDensityErrorLimit = 1e-6;  // relative; float storage of the voxels
 constexpr double kRootShiftLimit_m = 1e-9;
 
+/// {"water": [lo, hi], ...}: what pictures take their colour scales from.
 Json ranges_json(const vis::ValueRanges& ranges) {
   Json out = Json::object();
-  for (const auto& [name, r] : ranges) {
-    out[name] = {{"lo", r.lo}, {"hi", r.hi}};
-    for (const FieldSpec& f : all_fields())
-      if (f.name == name) out[name]["unit"] = std::string(f.unit);
-  }
+  for (const auto& [name, r] : ranges) out[name] = {r.lo, r.hi};
+  return out;
+}
+
+Json units_json(const vis::ValueRanges& ranges) {
+  Json out = Json::object();
+  for (const auto& [name, r] : ranges) out[name] = std::string(field_spec(name).unit);
   return out;
 }
 
@@ -51,7 +56,7 @@ FrameRecord frame_from(const Json& j) {
   j.at("point_count").get_to(f.point_count);
   j.at("total_density").get_to(f.total_density);
   for (const auto& [name, r] : j.at("ranges").items())
-    f.ranges[name] = {r.at("lo").get<double>(), r.at("hi").get<double>()};
+    f.ranges[name] = {r.at(0).get<double>(), r.at(1).get<double>()};
   return f;
 }
 
@@ -176,7 +181,8 @@ std::string run_json(const RunRecord& run) {
   j["blades"] = run.report.blades;
   j["points"] = {
       {"first", run.report.points_first}, {"last", run.report.points_last}, {"merges", run.report.merges}};
-  j["ranges"] = ranges_json(ranges_of(run));
+  j["value_ranges"] = ranges_json(ranges_of(run));
+  j["units"] = units_json(ranges_of(run));
   j["checks"] = checks_json(run);
   if (run.terrain) j["terrain_mesh"] = terrain_json(*run.terrain);
   j["frames"] = Json::array();
@@ -191,11 +197,12 @@ std::string run_json(const RunRecord& run) {
 RunSummary read_run(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "run.json";
   if (!std::filesystem::exists(file)) {
-    const bool unfinished = std::filesystem::exists(folder / "scene.resolved.json");
-    throw IoFailure("'" + folder.string() + "' holds no complete run (no run.json)" +
-                    (unfinished ? "; it was broken off: `witherfield run SCENE.toml -o " + folder.string() +
-                                      " --resume` finishes it"
-                                : ""));
+    const std::string where = folder.string();
+    std::string hint;
+    if (std::filesystem::exists(folder / "scene.resolved.json"))
+      hint =
+          fmt::format("; it was broken off: `witherfield run SCENE.toml -o {} --resume` finishes it", where);
+    throw IoFailure(fmt::format("'{}' holds no complete run (no run.json){}", where, hint));
   }
   try {
     const Json j = parse_file(file);

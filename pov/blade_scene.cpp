@@ -36,7 +36,6 @@ struct BladeWriter {
   const SceneContext& c;
   Text declarations = {};
   GroundLight ground = {};
-  double ground_weight = 0;
   std::map<int, bool> textured = {};
 
   const BladeRibbons& blades(int variant) const {
@@ -91,14 +90,10 @@ struct BladeWriter {
 
   void note_ground(const TexelPrelight& p, const Illumination& sun) {
     const auto shading = p.shade(sun, c.input->still.camera.position_m * 1e3);
-    const double w0 = ground_weight, w = w0 + 1, sky = p.ground_sky();
-    const auto mix = [&](auto& into, const auto& value) { into = (into * w0 + value) / w; };
-    mix(ground.sun, p.ground_sun(sun.to_sun));
-    mix(ground.sky, sky);
-    mix(ground.scattered_rgb, scattered_light(sun, p.mean_albedo(), sky));
-    mix(ground.canopy_rgb, shading.mean_sun + shading.mean_rest);
-    mix(ground.litter_rgb, p.mean_diffuse());
-    ground_weight = w;
+    const double sky = p.ground_sky();
+    ground.add({p.ground_sun(sun.to_sun), sky, scattered_light(sun, p.mean_albedo(), sky),
+                shading.mean_sun + shading.mean_rest, p.mean_diffuse()},
+               1);
   }
 
   /// The mesh goes to a file of its own: it is large and the same for every instance.
@@ -123,10 +118,10 @@ std::filesystem::path write_blade_field(const SceneContext& c, const Progress& p
   const Eye eye(c.input->still);
   // Grass outside the view still throws shadows into it, as long as it is tall.
   const double reach = 2 * c.input->tile_m / std::tan(c.input->still.sun.elevation_deg * 3.14159265 / 180);
-  const std::vector<Stand> stands = plan_stands(*c.input, c.around, std::min(reach, 4 * c.input->tile_m));
+  const StandPlan plan = plan_stands(*c.input, c.around, std::min(reach, 4 * c.input->tile_m));
   std::map<std::pair<int, int>, std::string> meshes;
   Text instances;
-  for (const Stand& s : stands) {
+  for (const Stand& s : plan.stands) {
     const double width = mean_blade_width_m(*c.input, s.at.variant);
     const int level = std::max(1, detail_level(width * eye.pixels_per_rad / s.distance_m));
     std::string& mesh = meshes[{s.at.variant, level}];

@@ -2,86 +2,175 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "pov/df3.hpp"
 
 namespace witherfield::pov {
 namespace {
 
+constexpr int kMostIntervals = 250;  // POV-Ray stops above 254 ("internal nesting limit")
+constexpr double kPieceGap = 1e-4;   // in tiles: pieces must not share a face, POV-Ray skips hits nearer than 1e-4 units
+
+int wrap(int i, int n) { return ((i % n) + n) % n; }
+
 /// Value that a share q of the positive entries does not exceed.
-double quantile(std::vector<float> v, double q) {
-  v.erase(std::remove_if(v.begin(), v.end(), [](float x) { return !(x > 0); }), v.end());
+double quantile(std::span<const float> values, double q) {
+  std::vector<float> v;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(v), [](float x) { return x > 0; });
   if (v.empty()) return 1;
   const auto at = v.begin() + std::ptrdiff_t(q * double(v.size() - 1));
   std::nth_element(v.begin(), at, v.end());
   return *at;
 }
 
-/// The lowest layer of grass stands also for the half voxel below it (see media_block).
-void repeat_ground(std::vector<float>& samples, const MediaBlock& b) {
+void declare(Text& scene, const SceneContext& c, const MediaBlock& b, std::vector<float>& samples, double full,
+             const std::string& name) {
+  // The lowest layer of grass stands also for the half voxel below it.
   const std::size_t layer = std::size_t(b.nx) * b.ny;
   std::copy_n(samples.begin() + std::ptrdiff_t(layer), layer, samples.begin());
-}
-
-void declare(Text& scene, const SceneContext& c, const MediaBlock& b, const std::vector<float>& samples, double full,
-             const std::string& name) {
   const std::string file = c.stem + "_" + name + ".df3";
   write_file(c.folder / file, encode_df3(samples, b.nx, b.ny, b.nz, full));
   const double h = b.spacing_m * c.unit;
-  // DF3 sample i lies at i/N of the unit cube: scaled to N voxels, the first sample is moved to its place.
+  // DF3 sample i lies at i/N of the unit cube: scaled to N spacings, the first sample is moved to its place.
   scene << "#declare " << name << "=density{density_file df3 \"" << file << "\" interpolate 1 scale <" << b.nx * h << ","
         << b.nz * h << "," << b.ny * h << "> translate " << flip(b.first_m, c.unit) << "}\n";
 }
 
-}  // namespace
-
-double declare_density(Text& scene, const SceneContext& c, const TexelPrelight& light, const MediaBlock& block,
-                       const std::string& name) {
-  std::vector<float> samples(std::size_t(block.nx) * block.ny * block.nz, 0.0f);
-  for (std::size_t i = 0; i < block.target.size(); ++i) samples[block.target[i]] += light.density()[i];
-  const double full = quantile(samples, 0.995);  // a few crowded voxels are opaque anyhow
-  repeat_ground(samples, block);
-  declare(scene, c, block, samples, full, name);
-  return full;
-}
-
-double declare_emission(Text& scene, const SceneContext& c, const TexelPrelight& light, const MediaBlock& block,
-                        const std::vector<glm::vec3>& radiance, double full_density, const std::string& name) {
-  const std::size_t n = std::size_t(block.nx) * block.ny * block.nz;
-  std::vector<float> density(n, 0.0f);
-  for (std::size_t i = 0; i < block.target.size(); ++i) density[block.target[i]] += light.density()[i];
-  std::vector<float> samples[3];
-  double full = 0;
-  for (int k = 0; k < 3; ++k) {
-    samples[k].assign(n, 0.0f);
-    for (std::size_t i = 0; i < block.target.size(); ++i) {
-      const std::size_t s = block.target[i];
-      // Where the density is cut off at full scale, the emission must be cut by the same factor.
-      const float cut = std::min(1.0f, float(full_density) / density[s]);
-      samples[k][s] += light.density()[i] * cut * radiance[i][k];
-    }
-    full = std::max(full, quantile(samples[k], 0.999));
-  }
-  const char* channel = "RGB";
-  for (int k = 0; k < 3; ++k) {
-    repeat_ground(samples[k], block);
-    declare(scene, c, block, samples[k], full, name + channel[k]);
-  }
-  return full;
-}
-
-std::string interior_text(const MediaNames& names, const glm::dvec3& factor, const std::string& intervals) {
-  // Method 2, one sample an interval, no jitter: the only setting without bias (jitter is one-sided, method 3 never samples the
-  // far end and does not attenuate within a step).
-  const std::string head = "media{method 2 intervals " + intervals + " samples 1,1 jitter 0 ";
-  Text t;
-  t << "interior{" << head << "absorption " << names.absorption << " density{" << names.density << "}}\n";
+std::string interior_text(const MediaNames& names, double per_unit, const glm::dvec3& factor, int intervals) {
+  // Method 2, one sample an interval, no jitter: the only setting without bias (jitter is one-sided, method 3 never samples
+  // the far end of a box and does not attenuate within a step).
+  Text head, t;
+  head << "media{method 2 intervals max(5,min(" << kMostIntervals << ",int(" << intervals << "*IQ))) samples 1,1 jitter 0 ";
+  t << "interior{" << head.str() << "absorption " << per_unit * names.full_density << " density{" << names.density << "}}\n";
   for (int k = 0; k < 3; ++k) {
     glm::dvec3 e(0.0);
-    e[k] = names.emitted * factor[k];
-    t << head << "emission rgb" << e << " density{" << names.emission[k] << "}}\n";
+    e[k] = per_unit * names.full_emission * factor[k];
+    t << head.str() << "emission rgb" << e << " density{" << names.emission[k] << "}}\n";
   }
   t << "}";
+  return t.str();
+}
+
+glm::ivec3 block_base(const TexelGrid& grid, bool folded) {
+  if (folded) return {grid.shape().margin, grid.shape().margin, -1};
+  const TexelGrid::Box box = grid.occupied_box();
+  return {box.lo.x - 1, box.lo.y - 1, -1};
+}
+
+/// Heights between which a column piece holds grass.
+struct Extent {
+  int lo = 1 << 30, hi = -1;
+};
+
+}  // namespace
+
+MediaBlock media_block(const TexelGrid& grid, bool folded) {
+  const GridShape& s = grid.shape();
+  const TexelGrid::Box box = grid.occupied_box();
+  const glm::ivec3 base = block_base(grid, folded);
+  MediaBlock b;
+  b.spacing_m = s.spacing_m;
+  b.nx = folded ? s.nx - 2 * s.margin : box.hi.x - box.lo.x + 2;
+  b.ny = folded ? s.ny - 2 * s.margin : box.hi.y - box.lo.y + 2;
+  b.nz = box.hi.z + 2;
+  b.first_m = s.origin_m + (glm::dvec3(base) + 0.5) * s.spacing_m;
+  // A periodic tile reaches half a spacing beyond its samples, which the wrap fills rightly.
+  const glm::dvec3 wall = folded ? glm::dvec3(0.5, 0.5, 0) * s.spacing_m : glm::dvec3(0.0);
+  b.box_lo_m = b.first_m - wall;
+  b.box_hi_m = b.first_m + glm::dvec3(b.nx - 1, b.ny - 1, b.nz - 1) * s.spacing_m + wall;
+  b.box_lo_m.z = s.origin_m.z;
+  return b;
+}
+
+void add_texel(MediaSamples& samples, const MediaBlock& b, const TexelGrid& grid, const TexelPrelight& light,
+               std::span<const glm::vec3> radiance, bool folded) {
+  const glm::ivec3 base = block_base(grid, folded);
+  for (std::size_t i = 0; i < light.voxels().size(); ++i) {
+    glm::ivec3 p = light.voxels()[i] - base;
+    if (folded) p = {wrap(p.x, b.nx), wrap(p.y, b.ny), p.z};
+    samples.add((std::size_t(p.z) * b.ny + p.y) * b.nx + p.x, light.density()[i], radiance[i]);
+  }
+}
+
+std::vector<MediaPiece> find_pieces(const MediaBlock& b, std::span<const float> density, int n, bool periodic) {
+  const int px = (b.nx + n - 1) / n, py = (b.ny + n - 1) / n, pz = (b.nz + n - 1) / n;
+  std::vector<Extent> extent(std::size_t(px) * py * pz);
+  const auto neighbour = [&](int i, int count) { return (periodic ? wrap(i, count) : std::clamp(i, 0, count - 1)) / n; };
+  for (std::size_t s = 0; s < density.size(); ++s) {
+    if (!(density[s] > 0)) continue;
+    const int x = int(s % std::size_t(b.nx)), y = int(s / std::size_t(b.nx) % std::size_t(b.ny)),
+              z = int(s / (std::size_t(b.nx) * b.ny));
+    for (int d = 0; d < 27; ++d) {  // interpolation reaches one sample beyond the grass
+      const int bx = neighbour(x + d % 3 - 1, b.nx), by = neighbour(y + d / 3 % 3 - 1, b.ny);
+      const int bz = std::clamp(z + d / 9 - 1, 0, b.nz - 1) / n;
+      Extent& e = extent[(std::size_t(bz) * py + by) * px + bx];
+      e.lo = std::min(e.lo, z - 1);
+      e.hi = std::max(e.hi, z + 1);
+    }
+  }
+  std::vector<MediaPiece> pieces;
+  const double h = b.spacing_m;
+  const auto side = [&](int i, int count, int axis, double& lo, double& hi) {
+    lo = i == 0 ? b.box_lo_m[axis] : b.first_m[axis] + i * n * h;
+    hi = i + 1 == count ? b.box_hi_m[axis] : b.first_m[axis] + (i + 1) * n * h;
+  };
+  for (int k = 0; k < pz; ++k)
+    for (int j = 0; j < py; ++j)
+      for (int i = 0; i < px; ++i) {
+        const Extent& e = extent[(std::size_t(k) * py + j) * px + i];
+        if (e.hi < 0) continue;
+        MediaPiece p;
+        side(i, px, 0, p.lo_m.x, p.hi_m.x);
+        side(j, py, 1, p.lo_m.y, p.hi_m.y);
+        p.lo_m.z = std::max(b.box_lo_m.z, b.first_m.z + std::max(k * n, e.lo) * h);
+        p.hi_m.z = std::min(b.box_hi_m.z, b.first_m.z + std::min((k + 1) * n, e.hi) * h);
+        const glm::dvec3 size = (p.hi_m - p.lo_m) / h;
+        p.intervals = std::max(1, int(std::ceil(std::max({size.x, size.y, size.z}) - 1e-6)));
+        if (size.x > 0.01 && size.y > 0.01 && size.z > 0.01) pieces.push_back(p);
+      }
+  return pieces;
+}
+
+MediaNames declare_density(Text& scene, const SceneContext& c, const MediaBlock& b, MediaSamples& samples,
+                           const std::string& name) {
+  MediaNames names;
+  names.density = name + "D";
+  names.full_density = quantile(samples.density, 0.995);  // the few most crowded voxels are opaque anyhow
+  declare(scene, c, b, samples.density, names.full_density, names.density);
+  return names;
+}
+
+void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& b, MediaSamples& samples,
+                      const std::string& name, MediaNames& names) {
+  // Where the density is cut off at full scale, the emission must be cut by the same factor.
+  for (auto& channel : samples.emission)
+    for (std::size_t s = 0; s < channel.size(); ++s)
+      if (samples.density[s] > names.full_density) channel[s] *= float(names.full_density) / samples.density[s];
+  names.full_emission = 0;
+  for (const auto& channel : samples.emission) names.full_emission = std::max(names.full_emission, quantile(channel, 0.999));
+  for (int k = 0; k < 3; ++k) {
+    names.emission[k] = name + "RGB"[k];
+    declare(scene, c, b, samples.emission[std::size_t(k)], names.full_emission, names.emission[k]);
+  }
+}
+
+std::string quality_text() { return "#declare IQ=(QUALITY=0?0.5:(QUALITY=1?0.75:1.25));\n"; }
+
+std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces, double inset,
+                       const MediaNames& names, double depth_per_density, const glm::dvec3& factor,
+                       const std::string& transform) {
+  const double tile = c.input->tile_m, inset_m = inset * tile, gap = kPieceGap * tile;
+  const glm::dvec3 lo = b.box_lo_m + inset_m, hi = b.box_hi_m - inset_m;
+  const double per_unit = depth_per_density / (b.spacing_m * c.unit);
+  Text t;
+  for (const MediaPiece& piece : pieces) {
+    // Faces between pieces are moved by the texel's inset too, so that they meet no face of a neighbour.
+    const glm::dvec3 a = glm::max(lo, piece.lo_m + (inset_m + gap)), z = glm::min(hi, piece.hi_m + (inset_m - gap));
+    if (!(a.x < z.x && a.y < z.y && a.z < z.z)) continue;
+    t << "box{" << flip(a, c.unit) << "," << flip(z, c.unit) << " hollow no_shadow pigment{rgbt 1}\n"
+      << interior_text(names, per_unit, factor, piece.intervals) << transform << "}\n";
+  }
   return t.str();
 }
 

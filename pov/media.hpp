@@ -1,27 +1,72 @@
-// POV-Ray text and DF3 files of pre-lit media.
+// Pre-lit media: samples laid out for DF3 files, the boxes that hold them, and their text.
 #pragma once
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "pov/texel_scene.hpp"
+#include "pov/prelight.hpp"
+#include "pov/scene_parts.hpp"
 
 namespace witherfield::pov {
 
-/// Declared densities of one texel in one light.
-struct MediaNames {
-  std::string density, emission[3];   ///< identifiers in the scene
-  double absorption = 0, emitted = 0; ///< per unit of length at full scale
+/// A block of samples for a DF3 and where they lie in the texel. Along z there is one layer below the ground (a copy of the
+/// lowest one) and one empty layer above the grass; the box ends before the wrap.
+struct MediaBlock {
+  int nx = 0, ny = 0, nz = 0;
+  glm::dvec3 first_m{0.0};                  ///< position of sample (0, 0, 0)
+  double spacing_m = 1;
+  glm::dvec3 box_lo_m{0.0}, box_hi_m{0.0};  ///< where the samples may be used
+  std::size_t samples() const { return std::size_t(nx) * ny * nz; }
 };
 
-/// Writes the DF3 of the density and appends its #declare; `name` is the file stem's suffix and the identifier.
-/// @returns the density that is full scale.
-double declare_density(Text& scene, const SceneContext& c, const TexelPrelight& light, const MediaBlock& block,
-                       const std::string& name);
-/// The same for the emission of one shading (three DF3s). @returns the density times radiance that is full scale.
-double declare_emission(Text& scene, const SceneContext& c, const TexelPrelight& light, const MediaBlock& block,
-                        const std::vector<glm::vec3>& radiance, double full_density, const std::string& name);
+/// Density, and density times radiance per channel.
+struct MediaSamples {
+  std::vector<float> density;
+  std::array<std::vector<float>, 3> emission;
+  explicit MediaSamples(const MediaBlock& b) : density(b.samples(), 0.0f) {
+    for (auto& e : emission) e.assign(b.samples(), 0.0f);
+  }
+  void add(std::size_t at, float rho, const glm::vec3& radiance) {
+    density[at] += rho;
+    for (int k = 0; k < 3; ++k) emission[std::size_t(k)][at] += rho * radiance[k];
+  }
+};
 
-/// interior{...} of one box. `intervals` is a POV-Ray expression.
-std::string interior_text(const MediaNames& names, const glm::dvec3& factor, const std::string& intervals);
+/// Block of a texel. @param folded true: the periodic tile (DF3 interpolation wraps as it should in x and y); false: all that
+/// there is, with an empty sample around it.
+MediaBlock media_block(const TexelGrid& grid, bool folded);
+/// Adds all voxels of a texel to its block.
+void add_texel(MediaSamples& samples, const MediaBlock& block, const TexelGrid& grid, const TexelPrelight& light,
+               std::span<const glm::vec3> radiance, bool folded);
+
+/// Parts of a block that hold grass, at most piece_samples samples wide and cropped in height: rays pay for intervals only there and in
+/// proportion to their way; POV-Ray's limit of 254 intervals a box is never met.
+struct MediaPiece {
+  glm::dvec3 lo_m, hi_m;
+  int intervals = 1;  ///< samples along the longest side
+};
+std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density, int piece_samples,
+                                    bool periodic);
+
+/// Identifiers of declared densities and their values at full scale.
+struct MediaNames {
+  std::string density, emission[3];
+  double full_density = 1, full_emission = 1;
+};
+/// Writes the DF3s and their #declares. `declare_emission` keeps the density of `names` and replaces its emission: one density
+/// serves many lights.
+MediaNames declare_density(Text& scene, const SceneContext& c, const MediaBlock& block, MediaSamples& samples,
+                           const std::string& name);
+void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& block, MediaSamples& samples,
+                      const std::string& name, MediaNames& names);
+
+/// #declares of the intervals' quality; before any boxes.
+std::string quality_text();
+/// The boxes of one texel. @param depth_per_density optical depth of a sample's spacing at density 1; @param inset tiles, see
+/// box_inset; @param factor on the emission.
+std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces, double inset,
+                       const MediaNames& names, double depth_per_density, const glm::dvec3& factor,
+                       const std::string& transform);
 
 }  // namespace witherfield::pov

@@ -11,9 +11,10 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr double kNearTiles = 9;        // nearer texels keep their overhanging blades
-constexpr int kRingCells = 28;          // most texels in the ring around a placement
-constexpr double kPixelsPerVoxel = 1.3; // what the ring is given
+constexpr double kNearTiles = 6;     // nearer texels keep their overhanging blades
+constexpr int kRingCells = 28;       // most texels in the ring around a placement
+constexpr double kFinestPixels = 0.8;  // a finer voxel than this on the picture is not worth its memory
+constexpr double kRingPixels = 1.3;  // what the ring is given
 
 double smoothstep(double x) {
   x = std::clamp(x, 0.0, 1.0);
@@ -87,23 +88,24 @@ double Surroundings::height_m(double x, double y) const {
   return edge + (plain_m_ - edge) * smoothstep(std::hypot(x - cx, y - cy) / reach_m_);
 }
 
-std::vector<Stand> plan_stands(const SceneInput& in, const Surroundings* around, double margin_m) {
+StandPlan plan_stands(const SceneInput& in, const Surroundings* around, double margin_m) {
   const Placement& p = *in.placement;
   const Eye eye(in.still);
   const double tile = p.tile_m;
-  std::vector<Stand> stands;
+  StandPlan plan;
   const auto consider = [&](TexelInstance t, bool ring) {
+    plan.cells[{t.cell_i, t.cell_j}] = t;
     Stand s{t, false, 0};
     const glm::dvec3 centre = to_world(t, tile, {tile / 2, tile / 2, tile / 4});
     s.distance_m = std::max(glm::length(centre - eye.position_m), 0.2 * tile);
     if (!eye.sees(centre, 1.1 * tile + margin_m)) return;
-    const int useful = lod_for(in, t.variant, s.distance_m, eye.pixels_per_rad, ring ? kPixelsPerVoxel : 0.5);
+    const int useful = lod_for(in, t.variant, s.distance_m, eye.pixels_per_rad, ring ? kRingPixels : kFinestPixels);
     s.at.lod = ring ? useful : std::max(t.lod, useful);
     s.near = s.distance_m < kNearTiles * tile;
-    stands.push_back(s);
+    plan.stands.push_back(s);
   };
   for (const TexelInstance& t : p.instances) consider(t, false);
-  if (!around) return stands;
+  if (!around) return plan;
   const int n = around->cells();
   for (int j = -n; j < p.cells_y + n; ++j)
     for (int i = -n; i < p.cells_x + n; ++i) {
@@ -125,7 +127,7 @@ std::vector<Stand> plan_stands(const SceneInput& in, const Surroundings* around,
       t.sun_visibility = 1;
       consider(t, true);
     }
-  return stands;
+  return plan;
 }
 
 double box_inset(int cell_i, int cell_j) {

@@ -2,8 +2,9 @@
 // terrain's cut borders, and boxes for the media that never share a face.
 #pragma once
 #include <glm/vec3.hpp>
-#include <optional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pov/scene_writer.hpp"
@@ -26,7 +27,7 @@ struct Eye {
 /// One texel that is drawn. `at.lod` is what the picture uses.
 struct Stand {
   TexelInstance at;
-  bool near = false;         ///< near texels keep the blades that lean out of their tile, so no blade is cut
+  bool near = false;         ///< near texels keep the blades that lean over their border, so no blade is cut
   double distance_m = 0;
   int orientation() const { return at.quarter_turns + (at.mirrored ? 4 : 0); }
 };
@@ -50,9 +51,14 @@ class Surroundings {
   int cells_;
 };
 
-/// Instances to draw: those of the placement in view (LOD never finer than half a pixel a voxel), and a ring of texels
+struct StandPlan {
+  std::vector<Stand> stands;                                ///< what is drawn
+  std::map<std::pair<int, int>, TexelInstance> cells;       ///< all texels there are, by cell
+};
+
+/// Instances to draw: those of the placement in view (LOD never finer than what the picture can show), and a ring of texels
 /// around it so that the hill does not end in a cut. @param margin_m how far outside the view an instance still matters.
-std::vector<Stand> plan_stands(const SceneInput& input, const Surroundings* around, double margin_m);
+StandPlan plan_stands(const SceneInput& input, const Surroundings* around, double margin_m);
 
 /// Inset of a texel's box on its sides and bottom, in tiles: > 0, and different for all neighbours that touch or overlap
 /// (coincident faces make POV-Ray lose whole boxes).

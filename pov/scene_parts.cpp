@@ -35,6 +35,16 @@ std::string camera_text(const SceneContext& c) {
 
 }  // namespace
 
+void GroundLight::add(const GroundLight& m, double more_weight) {
+  const double a = weight / (weight + more_weight), b = 1 - a;
+  sun = a * sun + b * m.sun;
+  sky = a * sky + b * m.sky;
+  scattered_rgb = a * scattered_rgb + b * m.scattered_rgb;
+  canopy_rgb = a * canopy_rgb + b * m.canopy_rgb;
+  litter_rgb = a * litter_rgb + b * m.litter_rgb;
+  weight += more_weight;
+}
+
 std::string head_text(const SceneHead& h, const std::string& title) {
   Text t;
   t << "// witherfield scene: " << title << "\n// width_px " << h.width_px << " height_px " << h.height_px << " exposure "

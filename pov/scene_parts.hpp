@@ -31,12 +31,14 @@ struct SceneContext {
   const Surroundings* around = nullptr;  ///< null for a single texel
 };
 
-/// What of the light reaches the ground, and what the canopy sends back: from the prelight of a texel.
+/// What of the light reaches the ground, and what the canopy sends back: mean over the texels of a scene.
 struct GroundLight {
-  double sun = 1, sky = 1;            ///< mean shares on the ground under the grass
-  glm::dvec3 scattered_rgb{0.0};      ///< light from the blades above
-  glm::dvec3 canopy_rgb{0.1};         ///< radiance of the canopy as seen from outside
-  glm::dvec3 litter_rgb{0.0};         ///< mean reflectance of the blades: what lies on the soil
+  double sun = 1, sky = 1;             ///< mean shares on the ground under the grass
+  glm::dvec3 scattered_rgb{0.0};       ///< light from the blades above
+  glm::dvec3 canopy_rgb{0.1};          ///< radiance of the canopy as seen from outside
+  glm::dvec3 litter_rgb{0.0};          ///< mean reflectance of the blades: what lies on the soil
+  double weight = 0;
+  void add(const GroundLight& more, double more_weight);
 };
 
 /// Version, global settings, camera, sun, sky sphere (writes its picture), haze.

@@ -82,8 +82,8 @@ void add_scale(Overlay& overlay, const Layout& l, const Framing& f, const glm::d
     overlay.text(t.labels[i], p + out * ((sideways ? 10 : 17) * l.unit), l.font(15), align, kFaintInk);
   }
   overlay.lines(marks, 1, kFaintInk);
-  const double away = (sideways ? 58 : 42) * l.unit;
-  overlay.text(name, (a + b) * 0.5 + out * away, l.font(16), sideways ? Align::right : align, kInk);
+  const double away = (sideways ? 56 : align == Align::centre ? 42 : 50) * l.unit;
+  overlay.text(name, (a + b) * 0.5 + out * away, l.font(16), align, kInk);
 }
 
 }  // namespace

@@ -105,7 +105,10 @@ Colouring colouring_of(const std::filesystem::path& file, const Dataset& dataset
     out.unit = std::string(spec->unit);
 
   const bool vector = array.GetNumberOfComponents() == 3;
-  if (vector && name == "diffuse") out.kind = Colouring::Kind::rgb;
+  if (vector && name == "diffuse") {
+    out.kind = Colouring::Kind::rgb;
+    out.title = "Diffuse reflectance, in its own colours";
+  }
   if (vector && (name == "normal" || name == "tangent")) out.kind = Colouring::Kind::direction;
   if (out.kind != Colouring::Kind::scalar) return out;
   if (array.GetNumberOfComponents() > 1) out.title += " (magnitude)";
@@ -116,6 +119,7 @@ Colouring colouring_of(const std::filesystem::path& file, const Dataset& dataset
   if (!r) r = range_of_values(array, density);
   if (!range) r = widened(*r, spec);
   out.map = colour_map(name, r->first, r->second);
+  if (out.is_label()) out.unit.clear();
   return out;
 }
 

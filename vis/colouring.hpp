@@ -28,10 +28,10 @@ struct Colouring {
   glm::dvec3 at(const double* tuple, int components) const;
 };
 
-/// Scale: `range` if given; else the run's ("value_ranges" in run.json beside `file` or one folder up); else the array's own
-/// where `density` (may be null) is > 0. Degenerate ranges are widened.
+/// Scale: `range` if given; else the run's ("value_ranges" in run.json beside `file` or one folder up); else
+/// the array's own where `density` (may be null) is > 0. Degenerate ranges are widened.
 /// @throws InvalidInput when range is not ascending or not finite; IoFailure when run.json is damaged.
-Colouring colouring_of(const std::filesystem::path& file, const Dataset& dataset, vtkDataArray& array, vtkDataArray* density,
-                       const std::optional<std::pair<double, double>>& range);
+Colouring colouring_of(const std::filesystem::path& file, const Dataset& dataset, vtkDataArray& array,
+                       vtkDataArray* density, const std::optional<std::pair<double, double>>& range);
 
 }  // namespace witherfield::vis

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -14,7 +15,6 @@
 #include <charconv>
 #include <cstring>
 #include <limits>
-#include <set>
 
 #include "sim/core/errors.hpp"
 #include "sim/core/fields.hpp"
@@ -31,20 +31,34 @@ std::string unit_of(const Dataset& data, const std::string& name) {
   return "";
 }
 
+/// Calls `visit` with every value of the tuples where density > 0 (all tuples without a density).
+template <class Visit>
+void for_values(vtkDataArray& array, vtkDataArray* density, Visit&& visit) {
+  const auto components = static_cast<std::size_t>(array.GetNumberOfComponents());
+  const auto tuples = static_cast<std::size_t>(array.GetNumberOfTuples());
+  auto *floats = vtkFloatArray::FastDownCast(&array), *mask = vtkFloatArray::FastDownCast(density);
+  for (std::size_t i = 0; i < tuples; ++i) {
+    const auto tuple = static_cast<vtkIdType>(i);
+    if (density && !((mask ? mask->GetPointer(0)[i] : density->GetComponent(tuple, 0)) > 0)) continue;
+    for (std::size_t c = 0; c < components; ++c)
+      visit(floats ? double(floats->GetPointer(0)[i * components + c])
+                   : array.GetComponent(tuple, static_cast<int>(c)));
+  }
+}
+
 /// Range over all components; of an image's arrays only where density > 0 (the rest is air), if there is a
 /// density.
 ArrayInfo array_info(vtkDataArray& array, vtkDataArray* density) {
   ArrayInfo info{array.GetName(), "", array.GetNumberOfComponents(), 0, 0};
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i) {
-    if (density && !(density->GetComponent(i, 0) > 0)) continue;
-    for (int c = 0; c < info.components; ++c) {
-      const double x = array.GetComponent(i, c);
-      lo = std::min(lo, x);
-      hi = std::max(hi, x);
-    }
+  for_values(array, density, [&](double x) {
+    lo = std::min(lo, x);
+    hi = std::max(hi, x);
+  });
+  if (lo <= hi) {
+    info.lo = lo + 0.0;  // no minus zero
+    info.hi = hi + 0.0;
   }
-  if (lo <= hi) info.lo = lo, info.hi = hi;
   return info;
 }
 

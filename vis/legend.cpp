@@ -39,7 +39,7 @@ struct BarPlace {
 };
 
 BarPlace bar_place(const Layout& l) {
-  const double left = l.width_px - 128 * l.unit, bottom = 0.17 * l.height_px, top = 0.72 * l.height_px;
+  const double left = 62 * l.unit, bottom = 0.17 * l.height_px, top = 0.72 * l.height_px;
   return {{left, bottom}, {left + 24 * l.unit, top}};
 }
 
@@ -82,15 +82,17 @@ void add_categories(Overlay& overlay, const Layout& l, const ColourMap& map) {
 
 }  // namespace
 
-Layout::Layout(int width, int height)
-    : width_px(width), height_px(height), unit(std::min(width / 1280.0, height / 720.0)) {}
+Layout::Layout(int width, int height) : height_px(height), unit(std::min(width / 1280.0, height / 720.0)) {
+  legend_px = static_cast<int>(std::lround(192 * unit));
+  width_px = width - legend_px;
+}
 
 int Layout::font(double size) const {
   return std::max(7, static_cast<int>(std::lround(size * unit)));
 }
 
 std::array<double, 4> Layout::data_rectangle() const {
-  return {96 * unit, width_px - 200 * unit, 84 * unit, height_px - 64 * unit};
+  return {96 * unit, width_px - 84 * unit, 84 * unit, height_px - 64 * unit};
 }
 
 void add_colour_bar(vtkRenderer& renderer, const Layout& l, const ColourMap& map, const std::string& title,
@@ -120,11 +122,12 @@ void add_legend_text(vtkRenderer& renderer, const Layout& l, const std::string& 
 }
 
 void add_caption(vtkRenderer& renderer, const Layout& l, const std::string& text) {
-  Overlay(renderer).text(text, {22 * l.unit, l.height_px - 30 * l.unit}, l.font(22), Align::left, kInk);
+  Overlay(renderer).text(text, {22 * l.unit, l.height_px - 30 * l.unit}, l.font(22), Align::left, kInk, 0.8);
 }
 
 std::string typeset_unit(const std::string& unit) {
   std::string out;
+  if (unit == "1") return "\u2013";  // a dash: dimensionless
   for (std::size_t i = 0; i < unit.size(); ++i) {
     const bool after_letter = i > 0 && std::isalpha(static_cast<unsigned char>(unit[i - 1]));
     if (unit[i] == 'u' && i + 1 < unit.size() && unit[i + 1] == 'g')

@@ -68,7 +68,7 @@ void Overlay::lines(const std::vector<std::pair<glm::dvec2, glm::dvec2>>& lines,
 }
 
 void Overlay::text(const std::string& text, const glm::dvec2& at, int font_px, Align align,
-                   const glm::dvec3& colour) {
+                   const glm::dvec3& colour, double backing) {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   actor->SetPosition(std::round(at.x), std::round(at.y));
@@ -78,6 +78,8 @@ void Overlay::text(const std::string& text, const glm::dvec2& at, int font_px, A
   p->SetColor(colour.r, colour.g, colour.b);
   p->SetVerticalJustificationToCentered();
   p->SetLineSpacing(1.15);
+  p->SetBackgroundColor(kPaper.r, kPaper.g, kPaper.b);
+  p->SetBackgroundOpacity(backing);
   if (align == Align::left) p->SetJustificationToLeft();
   if (align == Align::centre) p->SetJustificationToCentered();
   if (align == Align::right) p->SetJustificationToRight();

@@ -10,13 +10,18 @@ namespace witherfield::vis {
 
 using Prop = std::shared_ptr<vtkProp3D>;
 
-/// A volume of the image: colour from `field`, opacity from `density`. Both are point arrays of the image.
-Prop volume_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density, const Colouring& colouring);
+/// A volume of the image: colour from `field`, opacity from `density` (both point arrays of the image),
+/// slightly shaded by a light from `to_light`.
+Prop volume_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density, const Colouring& colouring,
+                 const glm::dvec3& to_light);
 
-/// The surface density = iso, coloured by `field`. @throws InvalidInput when density does not reach iso anywhere.
-Prop surface_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density, double iso, const Colouring& colouring);
+/// The surface density = iso, coloured by `field`. @throws InvalidInput when density does not reach iso
+/// anywhere.
+Prop surface_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density, double iso,
+                  const Colouring& colouring);
 
 /// Triangles, or spheres at the points of a file without any. `field` belongs to the points or to the cells.
-Prop poly_prop(vtkDataSet& poly, vtkDataArray& field, bool of_cells, double sphere_radius, const Colouring& colouring);
+Prop poly_prop(vtkDataSet& poly, vtkDataArray& field, bool of_cells, double sphere_radius,
+               const Colouring& colouring);
 
 }  // namespace witherfield::vis

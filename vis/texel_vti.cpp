@@ -94,7 +94,7 @@ ValueRange range_of(Values values) {
   if (!values[0].empty()) r.lo = r.hi = values[0][0];
   for (const std::vector<float>& component : values)
     for (const float x : component) r = {std::min<double>(r.lo, x), std::max<double>(r.hi, x)};
-  return r;
+  return {r.lo + 0.0, r.hi + 0.0};  // no minus zero
 }
 
 XmlArray texel_array(const BlockPlan& plan, const TexelField& field, Values values, Compression compression) {

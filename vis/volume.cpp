@@ -4,6 +4,7 @@
 #include <vtkCamera.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
@@ -11,15 +12,18 @@
 #include <vtkProp3D.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "sim/core/errors.hpp"
 #include "vis/atomic_file.hpp"
 #include "vis/legend.hpp"
+#include "vis/overlay.hpp"
 #include "vis/props.hpp"
 #include "vis/render_window.hpp"
 #include "vis/vtk_messages.hpp"
@@ -81,11 +85,17 @@ double sphere_radius(const Dataset& dataset) {
   return dataset.data->GetLength() / 400;
 }
 
-Prop make_prop(const Source& s, const Colouring& colouring, const VolumeOptions& options) {
+/// From above the viewer's left shoulder.
+glm::dvec3 toward_light(const Framing& f) {
+  return glm::normalize(-f.forward * 1.0 - f.right * 0.6 + f.up * 0.9);
+}
+
+Prop make_prop(const Source& s, const Colouring& colouring, const VolumeOptions& options,
+               const glm::dvec3& to_light) {
   vtkDataSet& data = *s.dataset.data;
   if (!s.image) return poly_prop(data, *s.field, s.of_cells, sphere_radius(s.dataset), colouring);
   if (options.surface) return surface_prop(data, *s.field, *s.density, options.iso_density, colouring);
-  return volume_prop(data, *s.field, *s.density, colouring);
+  return volume_prop(data, *s.field, *s.density, colouring, to_light);
 }
 
 void set_camera(vtkRenderer& renderer, const Framing& f) {
@@ -98,12 +108,34 @@ void set_camera(vtkRenderer& renderer, const Framing& f) {
   renderer.ResetCameraClippingRange();
 }
 
+void set_lights(vtkRenderer& renderer) {
+  const auto add = [&](double x, double y, double z, double intensity) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(x, y, z);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(intensity);
+    renderer.AddLight(light);
+  };
+  renderer.AutomaticLightCreationOff();
+  add(-0.6, 0.9, 1.0, 0.75);
+  add(0.3, -0.2, 1.0, 0.35);
+}
+
+vtkSmartPointer<vtkRenderer> part_of(vtkRenderWindow& window, double left, double right) {
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetViewport(left, 0, right, 1);
+  renderer->SetBackground(kPaper.r, kPaper.g, kPaper.b);
+  window.AddRenderer(renderer);
+  return renderer;
+}
+
 void add_legend(vtkRenderer& renderer, const Layout& layout, const Colouring& colouring) {
   switch (colouring.kind) {
     case Colouring::Kind::scalar:
       return add_colour_bar(renderer, layout, colouring.map, colouring.title, typeset_unit(colouring.unit));
     case Colouring::Kind::rgb:
-      return add_legend_text(renderer, layout, colouring.title + ", shown as it looks");
+      return add_legend_text(renderer, layout, colouring.title);
     case Colouring::Kind::direction:
       return add_legend_text(renderer, layout, colouring.title + ": red, green, blue = |x|, |y|, |z|");
   }
@@ -139,24 +171,25 @@ void render_volume(const std::filesystem::path& input, const std::filesystem::pa
   const Source source = load(input, options);
   const Colouring colouring =
       colouring_of(input, source.dataset, *source.field, source.density, options.range);
-  const Prop prop = make_prop(source, colouring, options);
 
   const Layout layout(options.width_px, options.height_px);
   std::array<double, 6> bounds;
   source.dataset.data->GetBounds(bounds.data());
   const Framing framing = frame_box(bounds, options.azimuth_deg, options.elevation_deg, options.zoom,
-                                    options.width_px, options.height_px, layout.data_rectangle());
+                                    layout.width_px, layout.height_px, layout.data_rectangle());
+  const Prop prop = make_prop(source, colouring, options, toward_light(framing));
   const RenderWindow window(options.width_px, options.height_px);
   const VtkMessages messages;
   window.get()->SetMultiSamples(8);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(0.965, 0.972, 0.98);
-  window.get()->AddRenderer(renderer);
-  renderer->AddViewProp(prop.get());
-  add_axes(*renderer, layout, framing, bounds, source.dataset.length_unit);
-  add_legend(*renderer, layout, colouring);
-  if (const std::string text = caption(source.dataset); !text.empty()) add_caption(*renderer, layout, text);
-  set_camera(*renderer, framing);
+  const double split = double(layout.width_px) / options.width_px;
+  const vtkSmartPointer<vtkRenderer> data = part_of(*window.get(), 0, split),
+                                     legend = part_of(*window.get(), split, 1);
+  data->AddViewProp(prop.get());
+  add_axes(*data, layout, framing, bounds, source.dataset.length_unit);
+  if (const std::string text = caption(source.dataset); !text.empty()) add_caption(*data, layout, text);
+  add_legend(*legend, layout, colouring);
+  set_lights(*data);
+  set_camera(*data, framing);
   window.get()->Render();
   if (messages.has_error()) throw IoFailure("cannot render: " + messages.first_error());
   write_png(*window.get(), png);

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <mutex>
 #include <sstream>
 #include <vector>
@@ -22,19 +21,13 @@ namespace {
 // kept.
 class OpenMeshMessages {
  public:
-  OpenMeshMessages() : lock_(mutex()) {
-    ::omerr().disconnect(std::cerr);
-    ::omerr().connect(text_);
-  }
-  ~OpenMeshMessages() {
-    ::omerr().disconnect(text_);
-    ::omerr().connect(std::cerr);
-  }
+  // The buffer is swapped instead of OpenMesh's connect() and disconnect(), which lose memory at each call.
+  OpenMeshMessages() : lock_(mutex()), previous_(::omerr().rdbuf(text_.rdbuf())) {}
+  ~OpenMeshMessages() { ::omerr().rdbuf(previous_); }
   OpenMeshMessages(const OpenMeshMessages&) = delete;
   OpenMeshMessages& operator=(const OpenMeshMessages&) = delete;
-  std::string text() {
-    ::omerr().flush();
-    std::string all = text_.str();
+  std::string first_line() const {
+    const std::string all = text_.str();
     return all.substr(0, all.find('\n'));
   }
 
@@ -45,6 +38,7 @@ class OpenMeshMessages {
   }
   std::lock_guard<std::mutex> lock_;
   std::ostringstream text_;
+  std::streambuf* previous_;
 };
 
 void require_finite(const TriMesh& mesh, const std::string& file) {
@@ -86,12 +80,12 @@ TriMesh read_terrain_mesh(const std::string& file) {
     throw InvalidInput(fmt::format("terrain.mesh: '{}' is neither .obj nor .ply", file));
   const std::vector<glm::dvec3> vertices = extension == ".obj" ? scan_obj(file) : scan_ply(file);
 
-  OpenMeshMessages messages;
+  const OpenMeshMessages messages;
   TriMesh mesh;
   if (!OpenMesh::IO::read_mesh(mesh, file) || mesh.n_faces() == 0)
-    throw IoFailure(fmt::format("terrain.mesh: cannot read '{}': {}", file, messages.text()));
+    throw IoFailure(fmt::format("terrain.mesh: cannot read '{}': {}", file, messages.first_line()));
   require_manifold(mesh, file);
-  const std::string warning = messages.text();
+  const std::string warning = messages.first_line();
   if (!warning.empty())
     throw InvalidInput(fmt::format("terrain.mesh: '{}' has faces that cannot be used: {}", file, warning));
   for (std::size_t k = 0; k < vertices.size(); ++k)

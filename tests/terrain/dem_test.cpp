@@ -92,10 +92,12 @@ TEST_F(DemTest, LowestPointIsAtZeroAndHighestAtMaxHeight) {
   o.crop[0] = 0.07, o.crop[1] = 0.13, o.crop[2] = 0.83, o.crop[3] = 0.91;
   const Terrain t = load_terrain(o);
   double lo = 1e9, hi = -1e9;
+  const double datum = t.true_elevation_m(0, 0) - t.height(0, 0);
   const int n = 1500;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
-      const double h = t.height(t.width_m() * i / n, t.depth_m() * j / n);
+      const double x = t.width_m() * i / n, y = t.depth_m() * j / n, h = t.height(x, y);
+      ASSERT_NEAR(t.true_elevation_m(x, y) - h, datum, 1e-5);  // nothing is cut off at zero
       lo = std::min(lo, h);
       hi = std::max(hi, h);
     }

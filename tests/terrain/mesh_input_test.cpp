@@ -131,6 +131,9 @@ TEST_F(MeshInput, PlyAsciiAndBinary) {
   EXPECT_NEAR(same.true_elevation_m(0.75, 0.25), ascii.true_elevation_m(0.75, 0.25), 1e-6);
   expect_error<IoFailure>(mesh(write_text("cut.ply", binary.substr(0, binary.size() - 6))), {"cut.ply"});
   expect_error<IoFailure>(mesh(write_text("cut2.ply", binary.substr(0, binary.size() - 60))), {"cut2.ply"});
+  std::string out_of_range = binary;
+  out_of_range[out_of_range.size() - 4] = 9;  // last corner of the last face
+  expect_error<InvalidInput>(mesh(write_text("far.ply", out_of_range)), {"far.ply", "cannot be used"});
   const double nan = std::nan("");
   std::string bad = binary;
   std::memcpy(bad.data() + bad.find("end_header\n") + 11 + 5 * 8, &nan, 8);
