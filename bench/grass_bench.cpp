@@ -140,10 +140,10 @@ void measure(benchmark::State& state, const std::string& stage, const Prepare& p
 
 void texel_to_points(benchmark::State& state) {
   const Case& c = rod_case();
+  const double proportion = c.proportion(state.range(0));
   PointSet p;
   measure(
-      state, "texel_to_points", [] {},
-      [&] { p = sample_points(c.texel, c.proportion(state.range(0)), kPointMass, 1); });
+      state, "texel_to_points", [] {}, [&] { p = sample_points(c.texel, proportion, kPointMass, 1); });
   state.counters["points"] = double(p.size());
 }
 

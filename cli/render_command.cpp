@@ -79,15 +79,21 @@ void render(const Options& o, const bool& quiet) {
   options.threads = o.threads;
   const std::vector<Job> jobs = jobs_of(o, read_run(o.folder));
   std::error_code error;
-  fs::create_directories(fs::path(o.folder) / "images", error);
-  if (error) throw IoFailure("cannot make the folder '" + o.folder + "/images': " + error.message());
+  const fs::path images = fs::path(o.folder) / "images";
+  fs::create_directories(images, error);
+  if (error) throw IoFailure("cannot make the folder '" + images.string() + "': " + error.message());
   const Progress bar = console.progress();
-  for (const Job& job : jobs) {
-    check_interrupted();
-    const pov::RenderResult result =
-        pov::render_scene(job.scene, job.png, options,
-                          [&](std::string_view, double fraction) { bar("render " + job.name, fraction); });
-    console.say(fmt::format("{}  ({})", result.png.string(), duration_text(result.seconds)));
+  try {
+    for (const Job& job : jobs) {
+      check_interrupted();
+      const pov::RenderResult result =
+          pov::render_scene(job.scene, job.png, options,
+                            [&](std::string_view, double fraction) { bar("render " + job.name, fraction); });
+      console.say(fmt::format("{}  ({})", result.png.string(), duration_text(result.seconds)));
+    }
+  } catch (...) {
+    fs::remove(images, error);  // only if it is empty
+    throw;
   }
 }
 

@@ -108,7 +108,7 @@ struct BladeWriter {
 
 SceneHead head_of(const SceneContext& c) {
   const Still& s = c.input->still;
-  return {s.width_px, s.height_px, s.exposure, "blades", s.camera.aperture_m > 0};
+  return {s.width_px, s.height_px, s.exposure, "blades", s.camera.aperture_m > 0, c.around != nullptr};
 }
 
 }  // namespace

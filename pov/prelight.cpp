@@ -36,7 +36,7 @@ double specular_lobe(const glm::dvec3& tangent, const glm::dvec3& light, const g
 
 glm::dvec3 scattered_light(const Illumination& light, const glm::dvec3& mean_albedo, double sky) {
   const glm::dvec3 incoming = light.sun_rgb * (0.6 * light.to_sun.z) + light.sky_rgb;
-  return mean_albedo * incoming * (0.5 * std::pow(std::max(sky, 0.0), 0.75));
+  return mean_albedo * incoming * (0.7 * std::pow(std::max(sky, 0.0), 0.75));
 }
 
 std::vector<float> sky_visibility(const DenseDensity& block, double per_density, std::span<const glm::dvec3> points_m,

@@ -28,7 +28,7 @@ struct RemoveAtExit {
 std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
   if (head.depth_of_field) return {"-A"};
   if (head.look == "texel") {
-    if (quality == Quality::final) return {"+AM2", "+A0.1", "+R2", "-J"};
+    if (quality == Quality::final || (quality == Quality::good && !head.field)) return {"+AM2", "+A0.1", "+R2", "-J"};
     return {"-A"};
   }
   switch (quality) {
@@ -60,7 +60,7 @@ RenderResult render_scene(const std::filesystem::path& scene, const std::filesys
   const HdrImage image = decode_hdr(read_file(folder / raw), scene.stem().string() + ": what povray rendered");
   std::error_code error;
   if (png.has_parent_path()) std::filesystem::create_directories(png.parent_path(), error);
-  write_png(png, image.width, image.height, develop(image, head.exposure),
+  write_png(png, image.width, image.height, develop(image, head.exposure, head.look == "texel" ? 0.8 : 0.0),
             {{"Software", "witherfield"}, {"Title", scene.stem().string()}, {"Comment", "rendered with POV-Ray; " + head.look + " look"}});
   return {png, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }

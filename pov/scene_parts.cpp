@@ -13,7 +13,6 @@ namespace {
 std::string rgb(const glm::dvec3& c) { return (Text() << "rgb" << c).str(); }
 
 double scene_size_m(const SceneContext& c) {
-  if (!c.around) return c.input->tile_m;
   return std::max(c.around->high_x_m() - c.around->low_x_m(), c.around->high_y_m() - c.around->low_y_m());
 }
 
@@ -48,7 +47,7 @@ void GroundLight::add(const GroundLight& m, double more_weight) {
 std::string head_text(const SceneHead& h, const std::string& title) {
   Text t;
   t << "// witherfield scene: " << title << "\n// width_px " << h.width_px << " height_px " << h.height_px << " exposure "
-    << h.exposure << " look " << h.look << " depth_of_field " << int(h.depth_of_field)
+    << h.exposure << " look " << h.look << " depth_of_field " << int(h.depth_of_field) << " field " << int(h.field)
     << "\n// Render as HDR (+FH) in this folder; tone mapping follows. QUALITY: 0 draft, 1 good, 2 final.\n";
   return t.str();
 }
@@ -56,33 +55,41 @@ std::string head_text(const SceneHead& h, const std::string& title) {
 SceneHead parse_head(const std::string& text, const std::string& file) {
   SceneHead h;
   const std::size_t at = text.find("\n// width_px ");
-  int dof = 0;
-  std::string key[5], slashes;
+  int dof = 0, field = 0;
+  std::string key[6], slashes;
   std::istringstream in(at == std::string::npos ? "" : text.substr(at + 1, 200));
   in.imbue(std::locale::classic());
   in >> slashes >> key[0] >> h.width_px >> key[1] >> h.height_px >> key[2] >> h.exposure >> key[3] >> h.look >> key[4] >>
-      dof;
+      dof >> key[5] >> field;
   if (!in || !text.starts_with("// witherfield scene") || h.width_px < 1 || h.height_px < 1 || !(h.exposure > 0))
     throw InvalidInput(file + " is not a scene written by witherfield (its first lines do not say size and exposure)");
   h.depth_of_field = dof != 0;
+  h.field = field != 0;
   return h;
 }
 
+glm::dvec3 backdrop_rgb(const SceneContext& c) {
+  const double up = c.input->still.sun.direction().z;
+  return kBackdrop * (c.day->sun_rgb * up + c.day->sky_rgb) * 0.55;
+}
+
 std::string atmosphere_text(const SceneContext& c) {
-  const std::string sky = c.stem + "_sky.hdr";
-  write_file(c.folder / sky, encode_hdr(c.day->map));
-  const double size = scene_size_m(c) * c.unit;
   Text t;
   t << "#version 3.7;\n#ifndef(QUALITY) #declare QUALITY=1; #end\n#default{finish{ambient 0 diffuse 1}}\n"
     << "global_settings{assumed_gamma 1.0 max_trace_level 10}\n"
     << camera_text(c) << "light_source{" << flip(c.input->still.sun.direction(), 1e5 * c.unit) << " "
-    << rgb(c.day->sun_rgb) << " parallel point_at 0 media_interaction off}\n"
-    << "sky_sphere{pigment{image_map{hdr \"" << sky << "\" map_type 1 interpolate 2}}}\n";
-  if (c.around) {
-    const double plain = c.around->plain_m() * c.unit;
-    t << "fog{fog_type 2 distance " << 9 * size << " color " << rgb(c.day->horizon_rgb) << " fog_offset "
-      << plain + 0.05 * size << " fog_alt " << 0.12 * size << "}\n";
+    << rgb(c.day->sun_rgb) << " parallel point_at 0 media_interaction off}\n";
+  if (!c.around) {  // a pale wall, into which the studio's floor runs
+    const glm::dvec3 wall = backdrop_rgb(c);
+    t << "sky_sphere{pigment{gradient y color_map{[0 " << rgb(wall) << "][0.6 " << rgb(wall * 0.5) << "]}}}\n";
+    return t.str();
   }
+  const std::string sky = c.stem + "_sky.hdr";
+  write_file(c.folder / sky, encode_hdr(c.day->map));
+  const double size = scene_size_m(c) * c.unit, plain = c.around->plain_m() * c.unit;
+  t << "sky_sphere{pigment{image_map{hdr \"" << sky << "\" map_type 1 interpolate 2}}}\n"
+    << "fog{fog_type 2 distance " << 9 * size << " color " << rgb(c.day->horizon_rgb) << " fog_offset "
+    << plain + 0.05 * size << " fog_alt " << 0.12 * size << "}\n";
   return t.str();
 }
 

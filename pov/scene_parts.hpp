@@ -16,6 +16,7 @@ struct SceneHead {
   double exposure = 1;
   std::string look = "texel";
   bool depth_of_field = false;
+  bool field = true;                  ///< over a terrain; false: one texel
 };
 std::string head_text(const SceneHead& head, const std::string& title);
 /// @throws InvalidInput naming the file when the text is no scene of ours.
@@ -40,6 +41,10 @@ struct GroundLight {
   double weight = 0;
   void add(const GroundLight& more, double more_weight);
 };
+
+/// Reflectance of the studio's floor, and radiance of the wall behind a single texel (somewhat darker than the lit floor).
+inline const glm::dvec3 kBackdrop{0.205, 0.205, 0.195};
+glm::dvec3 backdrop_rgb(const SceneContext& c);
 
 /// Version, global settings, camera, sun, sky sphere (writes its picture), haze.
 std::string atmosphere_text(const SceneContext& c);

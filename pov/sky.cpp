@@ -12,7 +12,7 @@ namespace witherfield::pov {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSunLuminance = 3.0, kSunToSky = 7.0;
+constexpr double kSunLuminance = 6.0, kSunToSky = 6.0;
 
 struct Perez {
   std::array<double, 5> c;

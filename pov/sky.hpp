@@ -18,7 +18,7 @@ struct Daylight {
 /// "A practical analytic model for daylight": Perez distribution of Y, x, y, as linear sRGB. Not below the horizon.
 glm::dvec3 preetham_radiance(const Sun& sun, const glm::dvec3& direction);
 
-/// Sun : sky = 7 : 1 in luminance for a sun at 40 degrees and turbidity 3 (facts of clear daylight), the sun
+/// Sun : sky = 6 : 1 in luminance for a sun at 40 degrees and turbidity 3 (clear to slightly hazy daylight), the sun
 /// dimmed and reddened by air mass (Kasten & Young 1989; Rayleigh and Angstrom aerosol as in Preetham's appendix).
 Daylight make_daylight(const Sun& sun);
 

@@ -149,7 +149,7 @@ std::filesystem::path write_texel_field(const SceneContext& c, const Progress& p
   w.write(progress);
   const Still& still = c.input->still;
   Text t;
-  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false}, c.stem) << atmosphere_text(c)
+  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, true}, c.stem) << atmosphere_text(c)
     << quality_text() << terrain_text(c, w.ground(), false) << w.declarations() << w.boxes();
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());

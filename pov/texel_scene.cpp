@@ -52,7 +52,7 @@ std::filesystem::path write_texel_alone(const SceneContext& c, const Progress& p
   declare_emission(declarations, c, block, samples, "A", names);
   const Still& still = c.input->still;
   Text t;
-  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false}, c.stem) << atmosphere_text(c)
+  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, false}, c.stem) << atmosphere_text(c)
     << quality_text() << studio_text(c, light, true) << declarations.str()
     << boxes_text(c, block, pieces, box_inset(0, 0), names, light.per_density(), glm::dvec3(1.0), "");
   const auto path = c.folder / (c.stem + ".pov");

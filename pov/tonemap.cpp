@@ -1,6 +1,7 @@
 #include "pov/tonemap.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/core/colour.hpp"
 #include "sim/core/random.hpp"
@@ -23,6 +24,23 @@ double curve(double v) {
   return std::max(0.0, (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081));
 }
 
+/// exp of the log radiance plus its difference from a 3 x 3 binomial mean.
+HdrImage sharpened(const HdrImage& in, double amount) {
+  HdrImage out = in;
+  const auto luminance = [&](int x, int y) {
+    const glm::vec3& c = in.pixel[std::size_t(std::clamp(y, 0, in.height - 1)) * in.width + std::clamp(x, 0, in.width - 1)];
+    return std::log(0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z + 1e-3);
+  };
+  for (int y = 0; y < in.height; ++y)
+    for (int x = 0; x < in.width; ++x) {
+      double mean = 0;
+      for (int k = 0; k < 9; ++k) mean += luminance(x + k % 3 - 1, y + k / 3 - 1) * ((k % 3 == 1) + 1) * ((k / 3 == 1) + 1) / 16;
+      const double gain = std::exp(std::clamp(amount * (luminance(x, y) - mean), -0.7, 0.7));
+      out.pixel[std::size_t(y) * in.width + x] *= float(gain);
+    }
+  return out;
+}
+
 }  // namespace
 
 glm::dvec3 tone_map(const glm::dvec3& linear) {
@@ -31,7 +49,8 @@ glm::dvec3 tone_map(const glm::dvec3& linear) {
   return {std::clamp(out.x, 0.0, 1.0), std::clamp(out.y, 0.0, 1.0), std::clamp(out.z, 0.0, 1.0)};
 }
 
-std::vector<std::uint8_t> develop(const HdrImage& image, double exposure) {
+std::vector<std::uint8_t> develop(const HdrImage& picture, double exposure, double sharpen) {
+  const HdrImage image = sharpen > 0 ? sharpened(picture, sharpen) : picture;
   std::vector<std::uint8_t> out;
   out.reserve(image.pixel.size() * 3);
   for (std::size_t i = 0; i < image.pixel.size(); ++i) {

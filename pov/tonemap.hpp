@@ -13,6 +13,8 @@ namespace witherfield::pov {
 glm::dvec3 tone_map(const glm::dvec3& linear);
 
 /// 8-bit sRGB, 3 bytes a pixel, row by row from the top; dithered by half a level so that skies do not band.
-std::vector<std::uint8_t> develop(const HdrImage& image, double exposure);
+/// @param sharpen 0 none .. 1: unsharp mask of one pixel's radius, in log radiance so that bright edges do not ring; media are
+/// softer than a lens would be.
+std::vector<std::uint8_t> develop(const HdrImage& image, double exposure, double sharpen = 0);
 
 }  // namespace witherfield::pov

@@ -1,7 +1,9 @@
 // What is in a file: arrays, components, ranges, geometry, time. For `witherfield info`.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace witherfield::vis {

@@ -14,10 +14,9 @@ namespace {
 constexpr const char* kHead = R"PY(# Opens this run in ParaView:        paraview --script=view_in_paraview.py
 # Saves one picture without a window:  pvbatch view_in_paraview.py picture.png [day]
 #
-# Shown: the surface of the grass (density = 0.3) coloured by relative water content. The volume itself is set up too:
+# Shown: the surface of the grass (density = 0.2) coloured by relative water content. The volume itself is set up too:
 # click the eye beside grass.pvd. Other fields: tick them under grass.pvd, Apply, and colour by them; their
 # colour scales are fixed to the range of the whole run. Lengths are millimetres, times days, wd is 0 fresh .. 1 dry.
-import inspect
 import os
 import sys
 
@@ -26,14 +25,27 @@ from paraview.simple import *
 )PY";
 
 constexpr const char* kBody = R"PY(
-try:
-    here = os.path.dirname(os.path.abspath(__file__))
-except NameError:
-    here = os.path.dirname(os.path.abspath(inspect.getfile(inspect.currentframe())))
-if not os.path.exists(os.path.join(here, 'grass.pvd')):
-    here = os.getcwd()
-if not os.path.exists(os.path.join(here, 'grass.pvd')):
-    raise RuntimeError('grass.pvd is not beside view_in_paraview.py')
+
+
+def folders_to_try():
+    """Where this script may lie. ParaView's window runs it without telling it its own name."""
+    if '__file__' in globals():
+        yield os.path.dirname(os.path.abspath(__file__))
+    arguments = list(sys.argv)
+    try:
+        with open('/proc/self/cmdline', encoding='utf-8', errors='replace') as f:
+            arguments += f.read().split('\0')
+    except OSError:
+        pass
+    for argument in arguments:
+        if argument.endswith('.py'):
+            yield os.path.dirname(os.path.abspath(argument.split('=', 1)[-1]))
+    yield os.getcwd()
+
+
+here = next((f for f in folders_to_try() if os.path.exists(os.path.join(f, 'grass.pvd'))), None)
+if here is None:
+    raise RuntimeError('grass.pvd not found: start ParaView in the folder that holds it and view_in_paraview.py')
 
 INK = [0.13, 0.15, 0.18]
 paraview.simple._DisableFirstRenderCameraReset()
@@ -60,10 +72,11 @@ def legend(lut, view, title, unit):
     bar.TitleColor = bar.LabelColor = INK
     bar.TitleFontSize, bar.LabelFontSize = 16, 15
     bar.AutomaticLabelFormat = 0
-    bar.LabelFormat = bar.RangeLabelFormat = '%-#6.3g'
+    bar.LabelFormat = bar.RangeLabelFormat = '%.3g'
+    bar.HorizontalTitle = 1
     bar.ScalarBarLength = 0.5
     bar.WindowLocation = 'Any Location'
-    bar.Position = [0.86, 0.25]
+    bar.Position = [0.84, 0.22]
     bar.Visibility = 1
 
 
@@ -83,6 +96,7 @@ def axes(view, unit):
     for item in ('XTitleColor', 'YTitleColor', 'ZTitleColor', 'XLabelColor', 'YLabelColor', 'ZLabelColor'):
         setattr(grid, item, INK)
     grid.GridColor = [0.62, 0.65, 0.69]
+    grid.AxesToLabel = 2 | 4 | 8    # each axis once
 
 
 def look_at(view, source, azimuth):
@@ -93,8 +107,11 @@ def look_at(view, source, azimuth):
     center = [(b[2 * a] + b[2 * a + 1]) / 2 for a in range(3)]
     size = max(b[2 * a + 1] - b[2 * a] for a in range(3))
     view.CameraViewAngle = 30
-    view.CameraFocalPoint = center
-    view.CameraPosition = [center[0] + azimuth[0] * size, center[1] + azimuth[1] * size, center[2] + azimuth[2] * size]
+    # Aimed a little to the right of the middle, which leaves room for the legend there.
+    length = (azimuth[0] ** 2 + azimuth[1] ** 2) ** 0.5
+    aim = [center[0] - 0.12 * size * azimuth[1] / length, center[1] + 0.12 * size * azimuth[0] / length, center[2]]
+    view.CameraFocalPoint = aim
+    view.CameraPosition = [aim[a] + azimuth[a] * size for a in range(3)]
     view.CameraViewUp = [0, 0, 1]
 
 
@@ -132,8 +149,11 @@ def show_grass(view):
 
     surface = Contour(registrationName='grass surface', Input=grass)
     surface.ContourBy = ['POINTS', 'density']
-    surface.Isosurfaces = [0.3]
-    shown = Show(surface, view)
+    surface.Isosurfaces = [0.2]
+    smooth = Smooth(registrationName='smoothed surface', Input=surface)   # the voxels' steps
+    smooth.NumberofIterations = 30
+    shown = Show(smooth, view)
+    shown.Ambient, shown.Diffuse, shown.Specular = 0.35, 0.7, 0.0
     ColorBy(shown, ('POINTS', 'water'))
     shown.LookupTable = luts.get('water', shown.LookupTable)
     # Colouring by a field rescales it: put the run's range back.
@@ -142,7 +162,7 @@ def show_grass(view):
             luts[name].RescaleTransferFunction(lo, hi)
             legend(luts[name], view, title, unit)
     if VOLUME:
-        Hide(surface, view)
+        Hide(smooth, view)
     else:
         Hide(grass, view)
 
@@ -154,8 +174,8 @@ def show_grass(view):
     wd.Expression = "'wd %.2f' % wd[0]"
     note(wd, view, 'Upper Center')
     axes(view, 'mm')
-    look_at(view, grass, (0.7, -1.9, 0.75))
-    SetActiveSource(surface)
+    look_at(view, grass, (0.7, -2.0, 0.75))
+    SetActiveSource(smooth)
 
 
 def show_terrain(view):
@@ -185,10 +205,9 @@ else:
     view.Background = [0.965, 0.972, 0.98]
     view.OrientationAxesLabelColor = INK
 show_grass(view)
-if TERRAIN and os.path.exists(in_run('terrain.vtp')):
-    layout.SplitViewHorizontal(view=view, fraction=0.6)
-    ground = new_view()
-    AssignViewToLayout(view=ground, layout=layout, hint=2)
+if TERRAIN and os.path.exists(in_run('terrain.vtp')) and not PICTURE:
+    ground = new_view()                 # in a tab of its own
+    AssignViewToLayout(view=ground, layout=CreateLayout('Terrain'), hint=0)
     show_terrain(ground)
     SetActiveView(view)
 RenderAllViews()

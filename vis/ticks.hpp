@@ -10,7 +10,7 @@ struct Ticks {
   std::vector<std::string> labels;  ///< as many decimals as the step needs
 };
 
-/// About `wanted` ticks, never more than wanted + 2. @pre lo < hi, wanted >= 2.
+/// About `wanted` ticks, never fewer than 2 nor more than wanted + 3. @pre lo < hi, wanted >= 2.
 Ticks ticks(double lo, double hi, int wanted);
 
 }  // namespace witherfield::vis

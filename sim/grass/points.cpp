@@ -38,10 +38,11 @@ std::uint64_t linear_index(const GridShape& shape, const glm::ivec3& v) {
 
 /// Expected points of a voxel, in units of 2^-32: sums of them are exact, whatever the order.
 using Expected = std::int64_t;
-constexpr double kMostInVoxel = 1e5;  // keeps sums over a chunk below 2^63
+constexpr int kMostInVoxel = 1 << 17;  // keeps sums over a chunk below 2^63
 
 /// Rounds to the nearest by adding 1.5 * 2^52, whose last bit is worth 1: unlike a conversion, every
-/// instruction set has that for several numbers at once, and this runs over all voxels of all bricks.
+/// instruction set has that for several numbers at once, and this runs over all voxels of all bricks. What is
+/// not a number of points (negative, too large, not finite) comes out negative or >= kMostInVoxel * 2^32.
 Expected expected_points(double proportion, float density) {
   constexpr double kMagic = 0x1.8p52;
   return std::bit_cast<Expected>(proportion * density * 0x1p32 + kMagic) - std::bit_cast<Expected>(kMagic);
@@ -49,16 +50,15 @@ Expected expected_points(double proportion, float density) {
 
 Expected expected_points_of_brick(const TexelGrid& grid, int brick, double proportion) {
   const float* density = grid.channel(brick, C::density);
-  Expected sum = 0, good = 0;
+  Expected sum = 0, all = 0;
   for (int v = 0; v < TexelGrid::kVoxels; ++v) {
-    const double x = proportion * density[v];
-    good += Expected(x >= 0) & Expected(x < kMostInVoxel);
-    sum += expected_points(proportion, density[v]);
+    const Expected e = expected_points(proportion, density[v]);
+    sum += e, all |= e;
   }
-  for (int v = 0; good < TexelGrid::kVoxels && v < TexelGrid::kVoxels; ++v)
+  for (int v = 0; all >> 49 != 0 && v < TexelGrid::kVoxels; ++v)  // 49 = 17 + 32
     if (const double x = proportion * density[v]; !(x >= 0 && x < kMostInVoxel))
       throw InvalidInput(
-          "sample_points: points in one voxel (proportion * density) must be within 0..1e5, got " +
+          "sample_points: points in one voxel (proportion * density) must be within 0..131072, got " +
           std::to_string(x));
   return sum;
 }

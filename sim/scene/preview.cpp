@@ -43,7 +43,7 @@ void fewer_texels(GrassScene& scene) {
   scene.grass.texel.size_m = width / cells;
   for (grass::SampleOptions& s : scene.grass.samples)
     s.blades.count =
-        std::max(s.blades.count, int(std::min(double(kBlades), s.blades.count * factor * factor)));
+        std::max(s.blades.count, int(std::min(double(most_blades(scene)), s.blades.count * factor * factor)));
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ void shrink_to_preview(GrassScene& scene) {
   for (grass::SampleOptions& s : o.samples) {
     s.season.steps_per_day = o.season.steps_per_day;
     s.blades.segments = std::min(s.blades.segments, kSegments);
-    s.blades.count = std::min(s.blades.count, kBlades);
+    s.blades.count = std::min(s.blades.count, most_blades(scene));
   }
   std::erase_if(scene.stills, [&](const Still& still) {
     return std::find(o.wd_frames.begin(), o.wd_frames.end(), still.wd) == o.wd_frames.end();

@@ -52,7 +52,7 @@ class BadInput(ProgramTest):
 
     def test_nan_cells(self):
         rows = [[float(v) for v in row] for row in hill_rows()]
-        rows[0][0] = "nan"
+        rows[3][4] = "nan"
         (self.folder / "hill.asc").write_text(ascii_grid(rows))
         self.run_bad(2, HILL, "hill.asc")
 
@@ -95,6 +95,7 @@ class BadInput(ProgramTest):
         env = dict(os.environ, PATH=str(self.folder))
         self.bad(3, "render", "out/scene", env=env, says=["povray"])
         self.assertEqual(self.files("out/scene"), before)
+        self.assertFalse((self.folder / "out/scene/images").exists())
 
     def test_render_of_unknown_still_or_look(self):
         self.good("run", self.scene(TINY + STILL.replace('"texel", "blades"', '"texel"')))

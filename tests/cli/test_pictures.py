@@ -38,7 +38,7 @@ class Pictures(ProgramTest):
 
     def test_volume_says_which_frame_it_took(self):
         self.good("run", self.scene(TINY))
-        done = self.good("volume", "out/scene", "--day", "7", "--size", "64x48", "-o", "a.png")
+        done = self.good("volume", "out/scene", "--day", "7", "--size", "96x64", "-o", "a.png")
         self.assertIn("wd 0.3", done.stderr)
         self.bad(2, "volume", "out/scene/texel/texel_0000.vti", "--day", "7", "-o", "b.png", says=["--day"])
         self.assertFalse((self.folder / "b.png").exists())

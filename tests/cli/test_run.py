@@ -29,7 +29,7 @@ class Run(ProgramTest):
         self.assertEqual(run["seed"], 1)
         self.assertEqual(run["scene"]["name"], "meadow")
         self.assertEqual(run["scene"]["season"]["tip_advance"], 0.08)  # a default, spelled out
-        self.assertEqual(run["scene"]["terrain"]["width_m"], 0.6)
+        self.assertAlmostEqual(run["scene"]["terrain"]["width_m"], 0.6)  # 3 texels of 0.2 m
         self.assertEqual([f["wd"] for f in run["frames"]], [0.0, 0.3, 0.9])
         self.assertEqual([f["time_days"] for f in run["frames"]], [0.0, 6.0, 18.0])
         for stage in run["stages"]:

@@ -55,6 +55,16 @@ TEST(Preview, KeepsTheTerrainsExtent) {
   EXPECT_GT(s.grass.samples[0].blades.count, full.grass.samples[0].blades.count);
 }
 
+TEST(Preview, SamplesShareTheBladesOfThePreview) {
+  const GrassScene s = load_text(kBig + "[[mingle]]\n[[mingle]]\n[[mingle]]\ncount = 3\n", true);
+  ASSERT_EQ(s.grass.samples.size(), 3u);
+  int blades = 0;
+  for (const grass::SampleOptions& sample : s.grass.samples) blades += sample.blades.count;
+  EXPECT_LE(blades, 1600);
+  EXPECT_GT(s.grass.samples[2].blades.count, 3);
+  EXPECT_LT(s.grass.samples[2].blades.count, s.grass.samples[0].blades.count);
+}
+
 TEST(Preview, DropsStillsWhoseFrameIsNotKept) {
   const GrassScene s = load_text(
       "[season]\nwd_frames = [0, 0.2, 0.4, 0.6]\n"

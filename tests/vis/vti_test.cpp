@@ -54,7 +54,7 @@ TexelGrid strewn(double share) {
       const bool corner = (p.x == 0 || p.x == 15) && (p.y == 0 || p.y == 11) && (p.z == 0 || p.z == 19);
       if (!corner && r.uniform() >= share) continue;
       for (int c = 0; c < kTexelChannels; ++c) grid.channel(b, TexelChannel(c))[v] = float(r.uniform(-2, 2));
-      grid.channel(b, TexelChannel::density)[v] = float(r.uniform(0.01, 3));
+      grid.channel(b, TexelChannel::density)[v] = float(1 + int(r.uniform(0, 40))) / 16;  // with ties
       grid.channel(b, TexelChannel::blade_id)[v] = std::floor(float(r.uniform(0, 9000)));
       grid.channel(b, TexelChannel::tissue)[v] = r.uniform() < 0.5 ? 1 : 2;
     }
