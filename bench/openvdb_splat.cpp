@@ -24,7 +24,7 @@ struct Axis {
   std::vector<float> weights;
 
   void set(double x, int n, double sigma, double scale) {
-    const int own = int(x), reach = std::max(1, int(std::ceil(3 * sigma)));
+    const int own = int(x), reach = std::max(1, int(std::ceil(2 * sigma)));
     lo = std::max(own - reach, 0);
     const int hi = std::min(own + reach, n - 1);
     double w[32], sum = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/core/errors.hpp"
+#include "sim/grass/points.hpp"
 #include "sim/grass/voxelize.hpp"
 #include "vis/atomic_file.hpp"
 
@@ -15,8 +16,7 @@ vis::VoxelBox reachable_box(const grass::GrassOptions& options, const GridShape&
   double top_m = 0;
   for (const grass::SampleOptions& s : options.samples)
     top_m = std::max(top_m, s.blades.length_m.hi + s.blades.width_m.hi + s.blades.thickness_m.hi);
-  const double kernel_voxels =
-      std::max(1.0, std::ceil(3 * options.points.kernel_sigma_voxels)) + 1;  // points.hpp, splat_points
+  const double kernel_voxels = grass::splat_reach(options.points.kernel_sigma_voxels) + 1.0;
   const double layers = std::ceil((top_m - shape.origin_m.z) / shape.spacing_m + kernel_voxels);
   return {{0, 0, 0}, {shape.nx, shape.ny, int(std::clamp(layers, 1.0, double(shape.nz)))}};
 }

@@ -106,6 +106,7 @@ class GrassRun {
     const std::string stage = "scene " + still.name;
     const std::vector<fs::path> written = pov::write_scenes(
         folder_.path() / "pov", input, [&](std::string_view, double fraction) { bar(stage, fraction); });
+    bar(stage, 1);
     StillRecord record{still, {}};
     for (const std::string& look : still.looks)
       for (const fs::path& file : written)

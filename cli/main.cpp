@@ -28,6 +28,19 @@ constexpr const char* kFooter =
     "`witherfield COMMAND --help` explains each command.\n"
     "Exit codes: 0 done, 1 a check failed, 2 wrong input, 3 a file or program failed, 4 a solver failed.";
 
+/// The first word of the command line when it names no command; the parser itself would only say that one is
+/// missing.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.empty() || word[0] == '-') continue;
+    for (const CLI::App* command : app.get_subcommands({}))
+      if (command->check_name(word)) return "";
+    return word;
+  }
+  return "";
+}
+
 int fail(const std::string& message, int code) {
   fmt::print(stderr, "witherfield: error: {}\n", message);
   return code;
@@ -51,6 +64,9 @@ int main(int argc, char** argv) {
   cli::add_render_command(app, quiet);
   cli::add_volume_command(app, quiet);
   cli::add_info_command(app, quiet);
+  if (const std::string word = unknown_command(app, argc, argv); !word.empty())
+    return fail("unknown command '" + word + "'; there are run, render, volume, info (witherfield --help)",
+                2);
   try {
     app.parse(argc, argv);
     return 0;

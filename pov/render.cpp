@@ -51,8 +51,7 @@ RenderResult render_scene(const std::filesystem::path& scene, const std::filesys
   const std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
   const std::string raw = scene.stem().string() + "." + std::to_string(getpid()) + ".part.hdr";
   const RemoveAtExit cleanup{{folder / raw, folder / (scene.stem().string() + ".pov-state")}};
-  std::vector<std::string> arguments{"+I" + scene.filename().string(), "+O" + raw, "+FH", "-D", "-P", "-GA", "+GF", "+GW",
-                                     "+V", "+W" + std::to_string(width), "+H" + std::to_string(height),
+  std::vector<std::string> arguments{"+I" + scene.filename().string(), "+O" + raw, "+FH", "-D", "-P", "+W" + std::to_string(width), "+H" + std::to_string(height),
                                      "Declare=QUALITY=" + std::to_string(int(options.quality))};
   if (options.threads > 0) arguments.push_back("+WT" + std::to_string(options.threads));
   for (const std::string& a : antialiasing(head, options.quality)) arguments.push_back(a);

@@ -45,6 +45,7 @@ class Messages {
       if (progress_ && all > 0) progress_("rendering", double(done) / double(all));
       return;
     }
+    if (line_.starts_with("====")) lines_.clear();  // a new stage: what came before is a banner
     if (line_.empty() || line_.starts_with("Parsing ") || line_.starts_with("Parsed ")) return;
     lines_.push_back(line_);
     if (lines_.size() > 12) lines_.pop_front();

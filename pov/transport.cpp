@@ -101,7 +101,7 @@ DenseDensity densify(const TexelGrid& grid, bool periodic) {
 
 double depth_per_density(double blade_width_m, double spacing_m) {
   const double r = blade_width_m / spacing_m, resolved = r * r / (r * r + 4);
-  return 0.5 * (1 + 3.5 * resolved);
+  return 0.5 * (1 + 5.5 * resolved);
 }
 
 OpticalDepth::OpticalDepth(const DenseDensity& block, const glm::dvec3& to_light, double per_density)

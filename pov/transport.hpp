@@ -19,7 +19,7 @@ DenseDensity densify(const TexelGrid& grid, bool periodic);
 
 /// Optical depth of one voxel's edge at density 1 as seen in the pictures. A far voxel, larger than a blade is wide, is filled at random:
 /// 0.5 (leaf projection G of random orientations; Ross 1981). A near voxel, smaller than the blade's width,
-/// is a piece of one opaque face: up to 4.5 times as much.
+/// is a piece of one opaque face: up to 6.5 times as much.
 double depth_per_density(double blade_width_m, double spacing_m);
 
 /// Optical depth from every point of a block up toward a light, out of the block's top (and its sides where it is not periodic).

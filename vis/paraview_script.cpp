@@ -129,11 +129,6 @@ def show_grass(view):
     if os.path.exists(in_run('grass_optics.pvd')):
         optics = PVDReader(registrationName='grass_optics.pvd', FileName=in_run('grass_optics.pvd'))
         optics.PointArrays = ['density']       # not shown: normals, tangents and colours are large
-    scene = GetAnimationScene()
-    scene.UpdateAnimationUsingDataTimeSteps()
-    times = list(getattr(grass, 'TimestepValues', None) or [0.0])
-    scene.AnimationTime = min(times, key=lambda t: abs(t - DAY)) if DAY is not None else times[0]
-    view.ViewTime = scene.AnimationTime
 
     luts = {name: fix_scale(name, lo, hi, preset, invert)
             for name, title, unit, lo, hi, preset, invert in FIELDS}
@@ -175,7 +170,14 @@ def show_grass(view):
     note(wd, view, 'Upper Center')
     axes(view, 'mm')
     look_at(view, grass, (0.7, -2.0, 0.75))
-    SetActiveSource(smooth)
+
+    # The time last: with the first run's welcome window open, ParaView waits here until it is closed.
+    scene = GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    times = list(getattr(grass, 'TimestepValues', None) or [0.0])
+    scene.AnimationTime = min(times, key=lambda t: abs(t - DAY)) if DAY is not None else times[0]
+    view.ViewTime = scene.AnimationTime
+    return smooth
 
 
 def show_terrain(view):
@@ -204,12 +206,13 @@ else:
     view.UseColorPaletteForBackground = 0
     view.Background = [0.965, 0.972, 0.98]
     view.OrientationAxesLabelColor = INK
-show_grass(view)
+surface = show_grass(view)
 if TERRAIN and os.path.exists(in_run('terrain.vtp')) and not PICTURE:
     ground = new_view()                 # in a tab of its own
     AssignViewToLayout(view=ground, layout=CreateLayout('Terrain'), hint=0)
     show_terrain(ground)
     SetActiveView(view)
+SetActiveSource(surface)
 RenderAllViews()
 if PICTURE:
     layout.SetSize(1280, 720)

@@ -51,10 +51,7 @@ void TexelGrid::reset_bricks(const std::vector<int>& cells, bool uninitialised) 
   brick_cell_.assign(cells.begin(), cells.end());
   for (std::size_t b = 0; b < cells.size(); ++b) table_[std::size_t(cells[b])] = static_cast<std::int32_t>(b);
   const std::size_t floats = cells.size() * kTexelChannels * kVoxels;
-  if (data_.size() < floats) {
-    data_.clear();  // nothing of the old contents is kept, so nothing needs copying
-    data_.resize(floats);
-  }
+  data_.require(floats);
   if (!uninitialised) std::memset(data_.data(), 0, floats * sizeof(float));
 }
 
@@ -78,7 +75,7 @@ std::int64_t TexelGrid::occupied_voxels() const {
 
 std::size_t TexelGrid::memory_bytes() const {
   return table_.capacity() * sizeof(std::int32_t) + brick_cell_.capacity() * sizeof(std::int32_t) +
-         data_.capacity() * sizeof(float);
+         data_.size() * sizeof(float);
 }
 
 TexelGrid::Box TexelGrid::occupied_box() const {

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/core/raw_buffer.hpp"
+
 namespace witherfield {
 
 struct GridShape {
@@ -100,7 +102,7 @@ class TexelGrid {
   GridShape shape_;
   std::vector<std::int32_t> table_;       // brick cell -> brick, -1 if absent
   std::vector<std::int32_t> brick_cell_;  // brick -> brick cell
-  std::vector<float> data_;               // [brick][channel][64]
+  RawBuffer data_;                        // [brick][channel][64] floats
 };
 
 }  // namespace witherfield

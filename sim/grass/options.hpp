@@ -89,7 +89,7 @@ struct ColourOptions {
 /// Texel <-> points (Jiao et al. 2010, sec. 2.3).
 struct PointOptions {
   double proportion = 6;                 ///< points per unit of density, > 0 (the paper's best: 6)
-  double kernel_sigma_voxels = 0.6;      ///< Gaussian weight w_i, 0.3..4 (facts i)
+  double kernel_sigma_voxels = 0.5;      ///< Gaussian weight w_i, 0.3..4 (facts i)
   double merge_distance_voxels = 0.2;    ///< points of one blade and tissue nearer than this are combined; 0 = never; 0..2
 };
 

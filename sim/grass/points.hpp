@@ -1,6 +1,8 @@
 // Texel -> points and points -> texel (Jiao et al. 2010, sec. 2.3), and the combining of points (Algorithm
 // 1).
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "sim/core/point_set.hpp"
@@ -38,9 +40,13 @@ void ride_on_blades(PointSet& points, const BladeState& initial, const BladeStat
 /// ties by index. Order-independent, any thread count. Returns the number of combinations.
 std::size_t merge_points(PointSet& points, double distance_m);
 
+/// Voxels on each side of a point's own that its splat reaches: ceil(2 sigma). The weights are divided by their own sum, so
+/// nothing is lost by cutting there; farther out the tails hold little and would fill empty voxels around every blade.
+inline int splat_reach(double sigma_voxels) { return std::max(1, int(std::ceil(2 * sigma_voxels))); }
+
 /// Gaussian splat. For point i and voxel c: w = prod over axes of exp(-d^2 / (2 sigma^2)) (d in voxels, from
-/// the point to the voxel's centre) over the cube of voxels within ceil(3 sigma) (at least 1) of the point's
-/// own, divided by its sum over the voxels in the grid, times mass_i / point_mass_kg: so the sum of w over
+/// the point to the voxel's centre) over the cube of voxels within splat_reach(sigma) of the point's own,
+/// divided by its sum over the voxels in the grid, times mass_i / point_mass_kg: so the sum of w over
 /// the voxels = weight of the point, and density = sum_i w_i / proportion conserves (Jiao et al. 2010,
 /// sec. 2.3; errata E0.4, E0.5). Attributes are w-weighted means; tangent and normal are the principal axes
 /// of sum w t t^T and sum w n n^T (axial data; the tangent's z >= 0, the normal on the side of the heaviest

@@ -110,7 +110,7 @@ class GrassRun {
     const double mass = fresh_mass_kg(s.motion->blades(), s.options->blades, o_.tissue.density_kg_m3);
     s.points = sample_points(s.initial_texel, o_.points.proportion, mass / expected_points,
                              o_.seed ^ (stream * 0x9E3779B97F4A7C15ull));
-    attach_to_blades(s.points, s.initial, first_blade_id);
+    attach_to_blades(s.points, s.initial, first_blade_id, shape_.tile_m());
     report_.points_first += s.points.size();
     s.splatted = TexelGrid(shape_);
     return s;
@@ -207,6 +207,7 @@ class GrassRun {
       append(all.velocity_m_s, p.velocity_m_s);
       append(all.mass_kg, p.mass_kg);
       append(all.normal, p.normal);
+      append(all.normal_local, p.normal_local);
       append(all.tangent, p.tangent);
       append(all.blade_id, p.blade_id);
       append(all.arc, p.arc);

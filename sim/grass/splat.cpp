@@ -49,7 +49,7 @@ struct Kernel {
   std::vector<double> bell;  ///< exp(-k^2 / (2 sigma^2)), k = 0..reach
 
   explicit Kernel(double sigma)
-      : reach(std::max(1, int(std::ceil(3 * sigma)))), inverse_variance(1 / (sigma * sigma)) {
+      : reach(splat_reach(sigma)), inverse_variance(1 / (sigma * sigma)) {
     const double step = small_exp(-0.5 * inverse_variance);
     double value = 1, ratio = step;  // (k + 1)^2 = k^2 + (2 k + 1)
     for (int k = 0; k <= reach; ++k, value *= ratio, ratio *= step * step) bell.push_back(value);

@@ -30,10 +30,10 @@ std::string number_text(double value) {
 }
 
 std::string limits_text(const Limits& limits) {
-  std::string text = limits.above_lo ? fmt::format("greater than {}, at most {}", limits.lo, limits.hi)
-                                     : fmt::format("{}..{}", limits.lo, limits.hi);
-  if (!limits.unit.empty()) text += " " + std::string(limits.unit);
-  return text;
+  const char* space = limits.unit.empty() ? "" : " ";
+  if (limits.above_lo)
+    return fmt::format("greater than {}, at most {}{}{}", limits.lo, limits.hi, space, limits.unit);
+  return fmt::format("{}..{}{}{}", limits.lo, limits.hi, space, limits.unit);
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {

@@ -26,6 +26,11 @@ std::vector<double> few_frames(const std::vector<double>& frames, const std::vec
   return kept;
 }
 
+/// Most blades of one sample: all samples together have kBlades.
+int most_blades(const GrassScene& scene) {
+  return std::max(1, kBlades / int(scene.grass.samples.size()));
+}
+
 /// Fewer, larger tiles over the same terrain, with the same number of blades to the square metre (up to
 /// kBlades).
 void fewer_texels(GrassScene& scene) {

@@ -31,6 +31,9 @@ class Help(ProgramTest):
             self.assertEqual(done.returncode, 2, (arguments, done.stderr))
             self.assertTrue(done.stderr, arguments)
 
+    def test_unknown_command_names_the_known_ones(self):
+        self.bad(2, "-q", "dance", says=["'dance'", "run, render, volume, info"])
+
     def test_wrong_sizes_and_ranges(self):
         (self.folder / "x.vti").write_text("")
         self.bad(2, "volume", "x.vti", "-o", "a.png", "--size", "12", says=["--size 12", "pixels"])

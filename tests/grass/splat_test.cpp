@@ -36,7 +36,7 @@ double total_weight(const PointSet& p) {
 class Reference {
  public:
   Reference(const GridShape& shape, double sigma, const glm::dvec3& voxels) : sigma_(sigma), at_(voxels) {
-    const int reach = std::max(1, int(std::ceil(3 * sigma)));
+    const int reach = std::max(1, int(std::ceil(2 * sigma)));
     const glm::ivec3 own(glm::floor(voxels)), size(shape.nx, shape.ny, shape.nz);
     lo = glm::max(own - reach, glm::ivec3(0)), hi = glm::min(own + reach, size - 1);
     for (int k = lo.z; k <= hi.z; ++k)

@@ -1,0 +1,124 @@
+// Whole scenes: what is written. povray is not run here.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <set>
+
+#include "pov/near_cells.hpp"
+#include "pov/plan.hpp"
+#include "pov/render.hpp"
+#include "pov/scene_parts.hpp"
+#include "pov/text.hpp"
+#include "sim/core/errors.hpp"
+#include "tests/pov/scene_fixture.hpp"
+
+namespace witherfield::pov {
+namespace {
+
+TEST_F(SceneTest, HeadTellsSizeAndExposureBack) {
+  const SceneHead h = parse_head(head_text({123, 45, 1.75, "blades", true, false}, "t"), "t.pov");
+  EXPECT_EQ(h.width_px, 123);
+  EXPECT_EQ(h.height_px, 45);
+  EXPECT_DOUBLE_EQ(h.exposure, 1.75);
+  EXPECT_EQ(h.look, "blades");
+  EXPECT_TRUE(h.depth_of_field);
+  EXPECT_FALSE(h.field);
+  EXPECT_THROW(parse_head("#version 3.7;\n", "other.pov"), InvalidInput);
+}
+
+TEST_F(SceneTest, FilesStayInTheFolderAndNoneIsPartial) {
+  input.placement = &placement;
+  const auto scenes = write_scenes(folder, input);
+  ASSERT_EQ(scenes.size(), 2u);
+  for (const auto& e : fs::directory_iterator(folder)) {
+    EXPECT_TRUE(e.path().filename().string().starts_with("small_")) << e.path();
+    EXPECT_NE(e.path().extension(), ".part");
+  }
+  for (const fs::path& scene : scenes) EXPECT_EQ(read_file(scene).find('/' + std::string("tmp")), std::string::npos);
+}
+
+TEST_F(SceneTest, UnknownLookAndMissingDataAreNamed) {
+  input.still.looks = {"oil"};
+  EXPECT_THROW(write_scenes(folder, input), InvalidInput);
+  input.still.looks = {"blades"};
+  input.variants[0].blades = nullptr;
+  EXPECT_THROW(write_scenes(folder, input), InvalidInput);
+  input.variants.clear();
+  EXPECT_THROW(write_scenes(folder, input), InvalidInput);
+}
+
+TEST_F(SceneTest, PovrayMissingNamesThePackage) {
+  input.still.looks = {"blades"};
+  const auto scenes = write_scenes(folder, input);
+  const std::string path = getenv("PATH");
+  setenv("PATH", folder.c_str(), 1);
+  std::string message;
+  try {
+    render_scene(scenes[0], folder / "out.png", {});
+  } catch (const IoFailure& e) {
+    message = e.what();
+  }
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(message.find("Debian package 'povray'"), std::string::npos) << message;
+  EXPECT_FALSE(fs::exists(folder / "out.png"));
+}
+
+TEST(BoxInset, NeighboursNeverShareAFace) {
+  for (int j = -2; j < 3; ++j)
+    for (int i = -2; i < 3; ++i) {
+      EXPECT_GT(box_inset(i, j), 0.0);
+      std::set<double> seen;
+      for (int b = 0; b < 2; ++b)
+        for (int a = 0; a < 2; ++a) seen.insert(box_inset(i + a, j + b));
+      EXPECT_EQ(seen.size(), 4u);  // any 2 x 2 block: all different, so tops and bottoms of neighbours differ too
+    }
+}
+
+TEST_F(SceneTest, BoxesOfAFieldKeepApart) {
+  // Upright boxes of level cells: their walls must keep a gap wider than what POV-Ray skips.
+  for (int i = 0; i < 4; ++i) {
+    const double right = kUnitsPerTile * (i + 1 - box_inset(i, 0)), left = kUnitsPerTile * (i + 1 + box_inset(i + 1, 0));
+    EXPECT_GT(left - right, 1e-3);
+  }
+}
+
+TEST_F(SceneTest, NearCellHoldsWhatLeansIn) {
+  // All density of a level field of one texel falls into the cells; one cell's share is a whole texel's.
+  const TexelPrelight light(fine, true, 0.003);
+  const std::vector<glm::vec3> white(light.voxels().size(), glm::vec3(1));
+  std::vector<CellPart> parts;
+  std::vector<glm::dvec3> factor;
+  std::vector<TexelInstance> around(9);
+  Placement p = fixture::level_placement(0.2, 3);
+  for (TexelInstance& t : p.instances) {
+    t.quarter_turns = (t.cell_i + 2 * t.cell_j) & 3;
+    t.mirrored = t.cell_i == 2;
+    parts.push_back({&t, &fine, &light, &white});
+    factor.push_back(glm::dvec3(1.0));
+  }
+  double inside = 0;
+  const NearCell cell = merge_cell(p.instances[4], 0.2, parts, factor);
+  for (int z = 0; z < cell.block.nz; ++z)
+    for (int y = 1; y + 1 < cell.block.ny; ++y)
+      for (int x = 1; x + 1 < cell.block.nx; ++x)
+        inside += cell.samples.density[(std::size_t(z) * cell.block.ny + y) * cell.block.nx + x];
+  // With all parts unturned the cell would hold exactly one texel; turned ones lean in about as much as leans out.
+  EXPECT_NEAR(inside / fine.total_density(), 1.0, 0.2);
+  for (CellPart& part : parts) part.at = &p.instances[4];
+  for (std::size_t k = 0; k < 9; ++k) {
+    around[k] = p.instances[k];
+    around[k].quarter_turns = 0;
+    around[k].mirrored = false;
+    parts[k].at = &around[k];
+  }
+  const NearCell exact = merge_cell(around[4], 0.2, parts, factor);
+  double sum = 0;
+  for (int z = 0; z < exact.block.nz; ++z)
+    for (int y = 1; y + 1 < exact.block.ny; ++y)
+      for (int x = 1; x + 1 < exact.block.nx; ++x)
+        sum += exact.samples.density[(std::size_t(z) * exact.block.ny + y) * exact.block.nx + x];
+  EXPECT_NEAR(sum / fine.total_density(), 1.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace witherfield::pov
