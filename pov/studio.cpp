@@ -52,7 +52,7 @@ Soil make_soil(int pixels) {
   const double pixel = kHeapTiles / pixels;
   parallel_for(std::size_t(pixels), 32, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
-      for (std::size_t x = 0; x < pixels; ++x) {
+      for (std::size_t x = 0; x < std::size_t(pixels); ++x) {
         const double px = (double(x) + 0.5) * pixel - kHeapTiles / 2, py = (double(y) + 0.5) * pixel - kHeapTiles / 2;
         soil.height[y * pixels + x] =
             float(std::max(0.0, heap(px, py) + 0.03 * noise(30 * px, 30 * py, 3) + 0.02 * noise(70 * px, 70 * py, 4)));

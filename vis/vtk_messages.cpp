@@ -1,5 +1,6 @@
 #include "vis/vtk_messages.hpp"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 
@@ -45,6 +46,9 @@ VtkMessages::VtkMessages() : window_(Window::New(), [](Window* w) { w->Delete();
   previous->Register(nullptr);
   previous_ = {previous, [](vtkOutputWindow* w) { w->Delete(); }};
   vtkOutputWindow::SetInstance(window_.get());
+  // VTK's log writes errors to the terminal whatever the output window does with them.
+  log_verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
 VtkMessages::~VtkMessages() {

@@ -23,6 +23,7 @@ class VtkMessages {
   class Window;
   std::shared_ptr<Window> window_;
   std::shared_ptr<vtkOutputWindow> previous_;
+  int log_verbosity_ = 0;
 };
 
 }  // namespace witherfield::vis
