@@ -54,7 +54,7 @@ struct BladeWriter {
     glm::dvec3 albedo(0.1);
     if (const TexelGrid* grid = light_grid(c.input->variants[std::size_t(variant)])) {
       const TexelPrelight p(*grid, !alone, mean_blade_width_m(*c.input, variant));
-      sky = sky_visibility(p.block(), p.per_density(), b.center_m, 1.5 * p.block().spacing_m);
+      sky = sky_visibility(p.block(), p.per_density(), b.center_m, p.start_m());
       albedo = p.mean_albedo();
       note_ground(p, sun);
     }
@@ -64,7 +64,7 @@ struct BladeWriter {
     const auto picture = [&](const char* which, const char* transmit) {
       return "pigment{uv_mapping image_map{png \"" + stem + which + ".png\" gamma 1.0 interpolate 2" + transmit + "}}";
     };
-    const double gloss = 0.11 * mean_freshness(b) + 0.04;
+    const double gloss = 0.07 * mean_freshness(b) + 0.03;
     // Three layers, each a third of what is seen: the sun's beam on this side, through the blade, and all other light.
     declarations << "#declare V" << v << "=texture{" << picture("_reflected", "") << " finish{diffuse 3,0 specular "
                  << 3 * gloss << " roughness 0.035}}\n texture{" << picture("_transmitted", " transmit all 0.5")

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 
 #include "pov/df3.hpp"
 
@@ -10,7 +9,7 @@ namespace witherfield::pov {
 namespace {
 
 constexpr int kMostIntervals = 250;  // POV-Ray stops above 254 ("internal nesting limit")
-constexpr double kPieceGap = 1e-4;   // in tiles: pieces must not share a face, POV-Ray skips hits nearer than 1e-4 units
+constexpr double kPieceOverlap = 5e-5;  // in tiles: pieces must not share a face nor leave a gap
 
 int wrap(int i, int n) { return ((i % n) + n) % n; }
 
@@ -53,7 +52,7 @@ std::string interior_text(const MediaNames& names, double per_unit, const glm::d
 }
 
 glm::ivec3 block_base(const TexelGrid& grid, bool folded) {
-  if (folded) return {grid.shape().margin, grid.shape().margin, -1};
+  if (folded) return {grid.shape().margin - 1, grid.shape().margin - 1, -1};
   const TexelGrid::Box box = grid.occupied_box();
   return {box.lo.x - 1, box.lo.y - 1, -1};
 }
@@ -71,14 +70,13 @@ MediaBlock media_block(const TexelGrid& grid, bool folded) {
   const glm::ivec3 base = block_base(grid, folded);
   MediaBlock b;
   b.spacing_m = s.spacing_m;
-  b.nx = folded ? s.nx - 2 * s.margin : box.hi.x - box.lo.x + 2;
-  b.ny = folded ? s.ny - 2 * s.margin : box.hi.y - box.lo.y + 2;
+  b.nx = folded ? s.nx - 2 * s.margin + 2 : box.hi.x - box.lo.x + 2;
+  b.ny = folded ? s.ny - 2 * s.margin + 2 : box.hi.y - box.lo.y + 2;
   b.nz = box.hi.z + 2;
   b.first_m = s.origin_m + (glm::dvec3(base) + 0.5) * s.spacing_m;
-  // A periodic tile reaches half a spacing beyond its samples, which the wrap fills rightly.
-  const glm::dvec3 wall = folded ? glm::dvec3(0.5, 0.5, 0) * s.spacing_m : glm::dvec3(0.0);
-  b.box_lo_m = b.first_m - wall;
-  b.box_hi_m = b.first_m + glm::dvec3(b.nx - 1, b.ny - 1, b.nz - 1) * s.spacing_m + wall;
+  const glm::dvec3 wall = folded ? glm::dvec3(0.5, 0.5, 0) * s.spacing_m : glm::dvec3(0.0);  // of the tile
+  b.box_lo_m = b.first_m + wall;
+  b.box_hi_m = b.first_m + glm::dvec3(b.nx - 1, b.ny - 1, b.nz - 1) * s.spacing_m - wall;
   b.box_lo_m.z = s.origin_m.z;
   return b;
 }
@@ -87,16 +85,24 @@ void add_texel(MediaSamples& samples, const MediaBlock& b, const TexelGrid& grid
                std::span<const glm::vec3> radiance, bool folded) {
   const glm::ivec3 base = block_base(grid, folded);
   for (std::size_t i = 0; i < light.voxels().size(); ++i) {
-    glm::ivec3 p = light.voxels()[i] - base;
-    if (folded) p = {wrap(p.x, b.nx), wrap(p.y, b.ny), p.z};
-    samples.add((std::size_t(p.z) * b.ny + p.y) * b.nx + p.x, light.density()[i], radiance[i]);
+    const glm::ivec3 p = light.voxels()[i] - base;
+    if (!folded) {
+      samples.add((std::size_t(p.z) * b.ny + p.y) * b.nx + p.x, light.density()[i], radiance[i]);
+      continue;
+    }
+    // The tile's samples are 1..n; 0 and n + 1 repeat its far sides.
+    const int n = b.nx - 2, m = b.ny - 2, x = wrap(p.x - 1, n) + 1, y = wrap(p.y - 1, m) + 1;
+    for (const int at_y : {y, y == 1 ? m + 1 : y == m ? 0 : -1})
+      for (const int at_x : {x, x == 1 ? n + 1 : x == n ? 0 : -1})
+        if (at_x >= 0 && at_y >= 0)
+          samples.add((std::size_t(p.z) * b.ny + at_y) * b.nx + at_x, light.density()[i], radiance[i]);
   }
 }
 
-std::vector<MediaPiece> find_pieces(const MediaBlock& b, std::span<const float> density, int n, bool periodic) {
+std::vector<MediaPiece> find_pieces(const MediaBlock& b, std::span<const float> density, int n) {
   const int px = (b.nx + n - 1) / n, py = (b.ny + n - 1) / n, pz = (b.nz + n - 1) / n;
   std::vector<Extent> extent(std::size_t(px) * py * pz);
-  const auto neighbour = [&](int i, int count) { return (periodic ? wrap(i, count) : std::clamp(i, 0, count - 1)) / n; };
+  const auto neighbour = [&](int i, int count) { return std::clamp(i, 0, count - 1) / n; };
   for (std::size_t s = 0; s < density.size(); ++s) {
     if (!(density[s] > 0)) continue;
     const int x = int(s % std::size_t(b.nx)), y = int(s / std::size_t(b.nx) % std::size_t(b.ny)),
@@ -157,16 +163,21 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& b, M
 
 std::string quality_text() { return "#declare IQ=(QUALITY=0?0.5:(QUALITY=1?0.75:1.25));\n"; }
 
-std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces, double inset,
+std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces, double overlap,
                        const MediaNames& names, double depth_per_density, const glm::dvec3& factor,
                        const std::string& transform) {
-  const double tile = c.input->tile_m, inset_m = inset * tile, gap = kPieceGap * tile;
-  const glm::dvec3 lo = b.box_lo_m + inset_m, hi = b.box_hi_m - inset_m;
+  const double tile = c.input->tile_m, over_m = overlap * tile, piece_m = kPieceOverlap * tile;
+  glm::dvec3 lo = b.box_lo_m - over_m, hi = b.box_hi_m + over_m;
+  lo.z = b.box_lo_m.z + over_m;  // above the ground, below the wrap
+  hi.z = b.box_hi_m.z - over_m;
   const double per_unit = depth_per_density / (b.spacing_m * c.unit);
   Text t;
   for (const MediaPiece& piece : pieces) {
-    // Faces between pieces are moved by the texel's inset too, so that they meet no face of a neighbour.
-    const glm::dvec3 a = glm::max(lo, piece.lo_m + (inset_m + gap)), z = glm::min(hi, piece.hi_m + (inset_m - gap));
+    glm::dvec3 a = piece.lo_m - piece_m, z = piece.hi_m + piece_m;
+    for (int k = 0; k < 3; ++k) {  // pieces at a wall end where the box ends
+      if (piece.lo_m[k] <= b.box_lo_m[k] + 1e-9) a[k] = lo[k];
+      if (piece.hi_m[k] >= b.box_hi_m[k] - 1e-9) z[k] = hi[k];
+    }
     if (!(a.x < z.x && a.y < z.y && a.z < z.z)) continue;
     t << "box{" << flip(a, c.unit) << "," << flip(z, c.unit) << " hollow no_shadow pigment{rgbt 1}\n"
       << interior_text(names, per_unit, factor, piece.intervals) << transform << "}\n";

@@ -11,7 +11,7 @@
 namespace witherfield::pov {
 
 /// A block of samples for a DF3 and where they lie in the texel. Along z there is one layer below the ground (a copy of the
-/// lowest one) and one empty layer above the grass; the box ends before the wrap.
+/// lowest one) and one empty layer above the grass; the box ends before the wrap of the interpolation.
 struct MediaBlock {
   int nx = 0, ny = 0, nz = 0;
   glm::dvec3 first_m{0.0};                  ///< position of sample (0, 0, 0)
@@ -33,8 +33,8 @@ struct MediaSamples {
   }
 };
 
-/// Block of a texel. @param folded true: the periodic tile (DF3 interpolation wraps as it should in x and y); false: all that
-/// there is, with an empty sample around it.
+/// Block of a texel. @param folded true: the periodic tile, with a sample more on each side that repeats the opposite one; false: all
+/// that there is, with an empty sample around it. (POV-Ray's densities are zero outside their unit cube, so a DF3 must reach beyond the walls.)
 MediaBlock media_block(const TexelGrid& grid, bool folded);
 /// Adds all voxels of a texel to its block.
 void add_texel(MediaSamples& samples, const MediaBlock& block, const TexelGrid& grid, const TexelPrelight& light,
@@ -46,8 +46,7 @@ struct MediaPiece {
   glm::dvec3 lo_m, hi_m;
   int intervals = 1;  ///< samples along the longest side
 };
-std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density, int piece_samples,
-                                    bool periodic);
+std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density, int piece_samples);
 
 /// Identifiers of declared densities and their values at full scale.
 struct MediaNames {
@@ -63,9 +62,9 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& bloc
 
 /// #declares of the intervals' quality; before any boxes.
 std::string quality_text();
-/// The boxes of one texel. @param depth_per_density optical depth of a sample's spacing at density 1; @param inset tiles, see
-/// box_inset; @param factor on the emission.
-std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces, double inset,
+/// The boxes of one texel. @param overlap tiles, see box_overlap; @param depth_per_density optical depth of a sample's
+/// spacing at density 1; @param factor on the emission.
+std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces, double overlap,
                        const MediaNames& names, double depth_per_density, const glm::dvec3& factor,
                        const std::string& transform);
 

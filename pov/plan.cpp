@@ -11,7 +11,8 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr double kNearTiles = 6;     // nearer texels keep their overhanging blades
+constexpr double kNearTiles = 6;       // nearer texels are merged cell by cell
+constexpr double kFoldedPixels = 10;   // tiles less wide than this on the picture are folded
 constexpr int kRingCells = 28;       // most texels in the ring around a placement
 constexpr double kFinestPixels = 0.8;  // a finer voxel than this on the picture is not worth its memory
 constexpr double kRingPixels = 1.3;  // what the ring is given
@@ -95,13 +96,16 @@ StandPlan plan_stands(const SceneInput& in, const Surroundings* around, double m
   StandPlan plan;
   const auto consider = [&](TexelInstance t, bool ring) {
     plan.cells[{t.cell_i, t.cell_j}] = t;
-    Stand s{t, false, 0};
+    Stand s{t, Boxing::folded, 0};
     const glm::dvec3 centre = to_world(t, tile, {tile / 2, tile / 2, tile / 4});
     s.distance_m = std::max(glm::length(centre - eye.position_m), 0.2 * tile);
     if (!eye.sees(centre, 1.1 * tile + margin_m)) return;
     const int useful = lod_for(in, t.variant, s.distance_m, eye.pixels_per_rad, ring ? kRingPixels : kFinestPixels);
     s.at.lod = ring ? useful : std::max(t.lod, useful);
-    s.near = s.distance_m < kNearTiles * tile;
+    if (s.distance_m < kNearTiles * tile)
+      s.boxing = Boxing::merged;
+    else if (tile * eye.pixels_per_rad / s.distance_m > kFoldedPixels)
+      s.boxing = Boxing::overhanging;
     plan.stands.push_back(s);
   };
   for (const TexelInstance& t : p.instances) consider(t, false);
@@ -130,9 +134,26 @@ StandPlan plan_stands(const SceneInput& in, const Surroundings* around, double m
   return plan;
 }
 
-double box_inset(int cell_i, int cell_j) {
-  // Overhangs are shorter than half a tile, so only direct neighbours meet, and they differ in a parity.
-  return 0.0004 * (1 + (cell_i & 1) + 2 * (cell_j & 1));
+double box_overlap(int cell_i, int cell_j) { return 0.00005 * (1 + (cell_i & 1) + 2 * (cell_j & 1)); }
+
+TexelInstance smoothed(const StandPlan& plan, const TexelInstance& t) {
+  TexelInstance mean = t;
+  double weight = 2;
+  mean.slope_x *= weight;
+  mean.slope_y *= weight;
+  mean.sun_visibility *= weight;
+  for (int k = 0; k < 9; ++k) {
+    const auto other = plan.cells.find({t.cell_i + k % 3 - 1, t.cell_j + k / 3 - 1});
+    if (k == 4 || other == plan.cells.end()) continue;
+    mean.slope_x += other->second.slope_x;
+    mean.slope_y += other->second.slope_y;
+    mean.sun_visibility += other->second.sun_visibility;
+    weight += 1;
+  }
+  mean.slope_x /= weight;
+  mean.slope_y /= weight;
+  mean.sun_visibility /= weight;
+  return mean;
 }
 
 glm::dvec3 to_local_direction(const TexelInstance& t, const glm::dvec3& world) {

@@ -24,10 +24,14 @@ struct Eye {
   bool sees(const glm::dvec3& centre_m, double radius_m) const;
 };
 
+/// How a texel's media are boxed: near ones are merged with what leans in from their neighbours, cell by cell; farther ones keep their own
+/// overhanging blades in boxes that overlap; where a tile is a few pixels wide the folded tile will do.
+enum class Boxing { merged, overhanging, folded };
+
 /// One texel that is drawn. `at.lod` is what the picture uses.
 struct Stand {
   TexelInstance at;
-  bool near = false;         ///< near texels keep the blades that lean over their border, so no blade is cut
+  Boxing boxing = Boxing::folded;
   double distance_m = 0;
   int orientation() const { return at.quarter_turns + (at.mirrored ? 4 : 0); }
 };
@@ -60,9 +64,12 @@ struct StandPlan {
 /// around it so that the hill does not end in a cut. @param margin_m how far outside the view an instance still matters.
 StandPlan plan_stands(const SceneInput& input, const Surroundings* around, double margin_m);
 
-/// Inset of a texel's box on its sides and bottom, in tiles: > 0, and different for all neighbours that touch or overlap
-/// (coincident faces make POV-Ray lose whole boxes).
-double box_inset(int cell_i, int cell_j);
+/// How far, in tiles, a texel's box reaches over its walls (and stands above its ground): > 0, and different for all neighbours, so that no
+/// two faces coincide (which makes POV-Ray lose whole boxes) and no gap is left (which shows as a dark line when seen edge-on).
+double box_overlap(int cell_i, int cell_j);
+
+/// Slopes and sun visibility as the light sees them: means over a cell and its neighbours, so that tiles do not show as facets.
+TexelInstance smoothed(const StandPlan& plan, const TexelInstance& t);
 
 /// Direction or position of the world in the frame of a texel instance (inverse of its mirror and quarter turns).
 glm::dvec3 to_local_direction(const TexelInstance& t, const glm::dvec3& world);

@@ -10,8 +10,6 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr double kStartVoxels = 1.5;  // rays start this far from a voxel: a blade is about a voxel thick on its grid
-
 /// Share of the sun's beam on a blade, free of its sign: half the face's cosine, half the fibre's sin(t, l) (Kajiya & Kay 1989),
 /// whose mean over the turns of the blade about its axis is 2/pi sin(t, l).
 double beam_share(const glm::dvec3& normal, const glm::dvec3& tangent, const glm::dvec3& light) {
@@ -53,9 +51,10 @@ std::vector<float> sky_visibility(const DenseDensity& block, double per_density,
 }
 
 TexelPrelight::TexelPrelight(const TexelGrid& grid, bool periodic, double blade_width_m)
-    : block_(densify(grid, periodic)), per_density_(depth_per_density(blade_width_m, grid.shape().spacing_m)) {
+    : block_(densify(grid, periodic)), per_density_(depth_per_density(blade_width_m, grid.shape().spacing_m)),
+      start_m_(ray_start_m(blade_width_m, grid.shape().spacing_m)) {
   gather(grid);
-  sky_ = sky_visibility(block_, per_density_, point_m_, kStartVoxels * block_.spacing_m);
+  sky_ = sky_visibility(block_, per_density_, point_m_, start_m_);
 }
 
 void TexelPrelight::gather(const TexelGrid& grid) {
@@ -91,7 +90,7 @@ void TexelPrelight::gather(const TexelGrid& grid) {
 
 TexelPrelight::Shading TexelPrelight::shade(const Illumination& light, const glm::dvec3& eye_m) const {
   const OpticalDepth depth(block_, light.to_sun, per_density_);
-  const glm::dvec3 start = light.to_sun * (kStartVoxels * block_.spacing_m);
+  const glm::dvec3 start = light.to_sun * (start_m_);
   std::vector<glm::vec3> sun(voxel_.size()), rest(voxel_.size());
   parallel_for(voxel_.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

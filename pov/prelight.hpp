@@ -47,6 +47,7 @@ class TexelPrelight {
 
   const DenseDensity& block() const { return block_; }
   double per_density() const { return per_density_; }
+  double start_m() const { return start_m_; }   ///< see ray_start_m
   const std::vector<glm::ivec3>& voxels() const { return voxel_; }   ///< in the grid's own voxel numbers
   const std::vector<float>& density() const { return density_; }
   const std::vector<float>& sky() const { return sky_; }
@@ -58,7 +59,7 @@ class TexelPrelight {
   std::vector<glm::dvec3> ground_points() const;
 
   DenseDensity block_;
-  double per_density_;
+  double per_density_, start_m_;
   std::vector<glm::ivec3> voxel_;
   std::vector<glm::dvec3> point_m_;
   std::vector<float> density_, sky_, specular_;

@@ -1,4 +1,4 @@
-// Texels over a terrain: far ones share folded tiles in eight orientations, near ones are merged cell by cell.
+// Texels over a terrain: far ones share their densities in eight orientations, near ones are merged cell by cell.
 #include <array>
 #include <glm/geometric.hpp>
 #include <map>
@@ -11,25 +11,33 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr int kNearPiece = 24, kFarPiece = 64;
+constexpr int kNearPiece = 24, kFarPiece = 66;
+
+/// Texels that share their density.
+struct FarGroup {
+  int variant, lod;
+  bool folded;
+  auto operator<=>(const FarGroup&) const = default;
+};
 
 class FieldWriter {
  public:
   FieldWriter(const SceneContext& c, const StandPlan& plan) : c_(c), plan_(plan), to_sun_(c.input->still.sun.direction()) {}
 
   void write(const Progress& progress) {
-    std::map<std::pair<int, int>, std::vector<const Stand*>> far;  // variant, LOD
+    std::map<FarGroup, std::vector<const Stand*>> far;
     std::vector<const Stand*> near;
-    for (const Stand& s : plan_.stands) (s.near ? near : far[{s.at.variant, s.at.lod}]).push_back(&s);
+    for (const Stand& s : plan_.stands)
+      (s.boxing == Boxing::merged ? near : far[{s.at.variant, s.at.lod, s.boxing == Boxing::folded}]).push_back(&s);
     const double all = double(far.size() * 4 + near.size());
     double done = 0;
     const auto report = [&](double step) {
       if (progress) progress("lighting texels", done / all);
       done += step;
     };
-    for (const auto& [key, members] : far) {
+    for (const auto& [group, members] : far) {
       report(4);
-      write_far(key.first, key.second, members);
+      write_far(group, members);
     }
     for (const Stand* s : near) {
       report(1);
@@ -62,11 +70,11 @@ class FieldWriter {
                 weight);
   }
 
-  void write_far(int variant, int lod, const std::vector<const Stand*>& members) {
-    const TexelGrid& grid = grid_of(*c_.input, variant, lod);
-    const TexelPrelight& p = light(variant, lod);
-    const MediaBlock block = media_block(grid, true);
-    const std::string name = (Text() << "F" << variant << "L" << lod).str();
+  void write_far(const FarGroup& group, const std::vector<const Stand*>& members) {
+    const TexelGrid& grid = grid_of(*c_.input, group.variant, group.lod);
+    const TexelPrelight& p = light(group.variant, group.lod);
+    const MediaBlock block = media_block(grid, group.folded);
+    const std::string name = (Text() << (group.folded ? "F" : "H") << group.variant << "L" << group.lod).str();
     std::array<std::vector<const Stand*>, 8> by_orientation;
     for (const Stand* s : members) by_orientation[std::size_t(s->orientation())].push_back(s);
     MediaNames names;
@@ -76,18 +84,18 @@ class FieldWriter {
       // One shading serves all texels that stand alike: for the mean direction to the eye.
       glm::dvec3 to_eye(0.0);
       for (const Stand* s : by_orientation[o]) to_eye += direction_to_eye(s->at) / s->distance_m;
-      const TexelPrelight::Shading shading = shade(by_orientation[o].front()->at, lod, glm::normalize(to_eye));
+      const TexelPrelight::Shading shading = shade(by_orientation[o].front()->at, group.lod, glm::normalize(to_eye));
       MediaSamples samples(block);
-      add_texel(samples, block, grid, p, shading.radiance, true);
+      add_texel(samples, block, grid, p, shading.radiance, group.folded);
       if (pieces.empty()) {
-        pieces = find_pieces(block, samples.density, kFarPiece, true);
+        pieces = find_pieces(block, samples.density, kFarPiece);
         names = declare_density(declarations_, c_, block, samples, name);
         note_ground(p, shading, double(members.size()));
       }
       declare_emission(declarations_, c_, block, samples, (Text() << name << "o" << o).str(), names);
       for (const Stand* s : by_orientation[o])
-        boxes_ << boxes_text(c_, block, pieces, box_inset(s->at.cell_i, s->at.cell_j), names, p.per_density(),
-                             slope_factor(s->at, to_sun_, shading), instance_matrix(s->at, c_.input->tile_m, c_.unit));
+        boxes_ << boxes_text(c_, block, pieces, box_overlap(s->at.cell_i, s->at.cell_j), names, p.per_density(),
+                             slope_factor(smoothed(plan_, s->at), to_sun_, shading), instance_matrix(s->at, c_.input->tile_m, c_.unit));
     }
   }
 
@@ -114,10 +122,10 @@ class FieldWriter {
         const TexelInstance& t = found->second;
         const TexelPrelight::Shading& s = shading_of(t, lod);
         parts.push_back({&t, &grid_of(*c_.input, t.variant, lod), &light(t.variant, lod), &s.radiance});
-        factors.push_back(slope_factor(t, to_sun_, s));
+        factors.push_back(slope_factor(smoothed(plan_, t), to_sun_, s));
       }
     NearCell cell = merge_cell(stand.at, c_.input->tile_m, parts, factors);
-    const std::vector<MediaPiece> pieces = find_pieces(cell.block, cell.samples.density, kNearPiece, false);
+    const std::vector<MediaPiece> pieces = find_pieces(cell.block, cell.samples.density, kNearPiece);
     const std::string name = (Text() << "N" << near_count_++).str();
     const TexelPrelight& own = light(stand.at.variant, lod);
     if (ground_.weight == 0) note_ground(own, shading_of(stand.at, lod), 1);
@@ -127,7 +135,7 @@ class FieldWriter {
     upright.quarter_turns = 0;
     upright.mirrored = false;
     upright.height_scale = 1;
-    boxes_ << boxes_text(c_, cell.block, pieces, box_inset(stand.at.cell_i, stand.at.cell_j), names, own.per_density(),
+    boxes_ << boxes_text(c_, cell.block, pieces, box_overlap(stand.at.cell_i, stand.at.cell_j), names, own.per_density(),
                          glm::dvec3(1.0), instance_matrix(upright, c_.input->tile_m, c_.unit));
   }
 

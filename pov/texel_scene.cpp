@@ -46,7 +46,7 @@ std::filesystem::path write_texel_alone(const SceneContext& c, const Progress& p
   const MediaBlock block = media_block(grid, false);
   MediaSamples samples(block);
   add_texel(samples, block, grid, light, shading.radiance, false);
-  const std::vector<MediaPiece> pieces = find_pieces(block, samples.density, 20, false);
+  const std::vector<MediaPiece> pieces = find_pieces(block, samples.density, 20);
   Text declarations;
   MediaNames names = declare_density(declarations, c, block, samples, "A");
   declare_emission(declarations, c, block, samples, "A", names);
@@ -54,7 +54,7 @@ std::filesystem::path write_texel_alone(const SceneContext& c, const Progress& p
   Text t;
   t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, false}, c.stem) << atmosphere_text(c)
     << quality_text() << studio_text(c, light, true) << declarations.str()
-    << boxes_text(c, block, pieces, box_inset(0, 0), names, light.per_density(), glm::dvec3(1.0), "");
+    << boxes_text(c, block, pieces, box_overlap(0, 0), names, light.per_density(), glm::dvec3(1.0), "");
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());
   return path;

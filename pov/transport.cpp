@@ -99,9 +99,22 @@ DenseDensity densify(const TexelGrid& grid, bool periodic) {
   return d;
 }
 
+namespace {
+
+/// 0 where a voxel is much wider than a blade, 1 where much narrower.
+double resolved(double blade_width_m, double spacing_m) {
+  const double r = blade_width_m / spacing_m;
+  return r * r / (r * r + 4);
+}
+
+}  // namespace
+
 double depth_per_density(double blade_width_m, double spacing_m) {
-  const double r = blade_width_m / spacing_m, resolved = r * r / (r * r + 4);
-  return 0.5 * (1 + 5.5 * resolved);
+  return 0.5 * (1 + 5.5 * resolved(blade_width_m, spacing_m));
+}
+
+double ray_start_m(double blade_width_m, double spacing_m) {
+  return 1.8 * spacing_m * resolved(blade_width_m, spacing_m);
 }
 
 OpticalDepth::OpticalDepth(const DenseDensity& block, const glm::dvec3& to_light, double per_density)

@@ -22,6 +22,10 @@ DenseDensity densify(const TexelGrid& grid, bool periodic);
 /// is a piece of one opaque face: up to 6.5 times as much.
 double depth_per_density(double blade_width_m, double spacing_m);
 
+/// How far from a spot of grass a ray of light starts, so that a blade does not shade itself: 1.5 voxels where a blade is about a voxel
+/// thick, nothing where a voxel holds many blades (which do shade one another).
+double ray_start_m(double blade_width_m, double spacing_m);
+
 /// Optical depth from every point of a block up toward a light, out of the block's top (and its sides where it is not periodic).
 class OpticalDepth {
  public:

@@ -54,8 +54,8 @@ void describe_tissue(KeyVisitor& v, TissueOptions& t) {
   v.number({"bending_fresh_MPa", "Bending modulus of the whole blade, turgid"}, t.bending_fresh_MPa, modulus);
   v.number({"bending_limp_MPa", "Bending modulus without turgor"}, t.bending_limp_MPa, modulus);
   v.number({"bending_dry_MPa", "Bending modulus dried out"}, t.bending_dry_MPa, modulus);
-  v.number({"base_to_tip_stiffness", "Bending modulus at a blade's foot over that at its tip"}, t.base_to_tip_stiffness,
-           {1, 100});
+  v.number({"base_to_tip_stiffness", "Bending modulus at a blade's foot over that at its tip"},
+           t.base_to_tip_stiffness, {1, 100});
   v.check("modulus_vein_dry_MPa", t.modulus_vein_dry_MPa > t.modulus_vein_fresh_MPa,
           [] { return "tissue stiffens as it dries: must be greater than modulus_vein_fresh_MPa"; });
   v.check("modulus_mesophyll_dry_MPa", t.modulus_mesophyll_dry_MPa > t.modulus_mesophyll_fresh_MPa,

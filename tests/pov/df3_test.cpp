@@ -45,12 +45,12 @@ TEST(Df3, RefusesSizesThatDoNotFit) {
   EXPECT_THROW(encode_df3(std::vector<float>{}, 0, 1, 1, 1.0), InvalidInput);
 }
 
-TEST(MediaBlock, FirstSampleIsHalfAVoxelIntoThePeriodicTile) {
+TEST(MediaBlock, SamplesLieAtVoxelCentresAndReachBeyondTheWalls) {
   const TexelGrid grid = fixture::texel(fixture::blades(20, 0.2, 0.3, 1), fixture::shape(0.2, 32, 8));
   const MediaBlock b = media_block(grid, true);
   const double h = 0.2 / 32;
-  EXPECT_EQ(b.nx, 32);
-  EXPECT_NEAR(b.first_m.x, h / 2, 1e-12);
+  EXPECT_EQ(b.nx, 34);
+  EXPECT_NEAR(b.first_m.x, -h / 2, 1e-12);  // repeats the last column
   EXPECT_NEAR(b.first_m.z, -h / 2, 1e-12);  // the layer below the ground
   EXPECT_NEAR(b.box_lo_m.x, 0.0, 1e-12);
   EXPECT_NEAR(b.box_hi_m.x, 0.2, 1e-12);
@@ -68,16 +68,19 @@ TEST(MediaBlock, KeepsAllDensityFoldedAndUnfolded) {
     const MediaBlock b = media_block(grid, folded);
     MediaSamples s(b);
     add_texel(s, b, grid, light, white, folded);
-    EXPECT_NEAR(std::accumulate(s.density.begin(), s.density.end(), 0.0) / grid.total_density(), 1.0, 1e-5);
-    EXPECT_NEAR(std::accumulate(s.emission[1].begin(), s.emission[1].end(), 0.0) / grid.total_density(), 1.0, 1e-5);
-    // Nothing in the topmost layer, and nothing at the sides of the unfolded block: no wrap is ever seen.
-    const std::size_t layer = std::size_t(b.nx) * b.ny;
-    EXPECT_EQ(std::accumulate(s.density.end() - std::ptrdiff_t(layer), s.density.end(), 0.0), 0.0);
-    for (int z = 0; !folded && z < b.nz; ++z)
+    const auto at = [&](int x, int y, int z) { return s.density[(std::size_t(z) * b.ny + y) * b.nx + x]; };
+    double inside = 0, top = 0;
+    for (int z = 0; z < b.nz; ++z)
       for (int y = 0; y < b.ny; ++y) {
-        EXPECT_EQ(s.density[z * layer + std::size_t(y) * b.nx], 0.0f);
-        EXPECT_EQ(s.density[z * layer + std::size_t(y) * b.nx + b.nx - 1], 0.0f);
+        for (int x = 1; x + 1 < b.nx; ++x) inside += y > 0 && y + 1 < b.ny ? at(x, y, z) : 0;
+        for (int x = 0; x < b.nx; ++x) top += z + 1 == b.nz ? at(x, y, z) : 0;
+        // Folded: the sides repeat the opposite ones, so that tiles meet without a seam. Else nothing is there.
+        EXPECT_EQ(at(0, y, z), folded ? at(b.nx - 2, y, z) : 0.0f);
+        EXPECT_EQ(at(b.nx - 1, y, z), folded ? at(1, y, z) : 0.0f);
       }
+    EXPECT_NEAR(inside / grid.total_density(), 1.0, 1e-5);
+    EXPECT_EQ(top, 0.0);  // no wrap from the ground to the tips
+    EXPECT_EQ(s.density, s.emission[1]);
   }
 }
 
@@ -87,7 +90,7 @@ TEST(MediaPieces, CoverAllGrassWithinTheLimitOfIntervals) {
   const MediaBlock b = media_block(grid, false);
   MediaSamples s(b);
   add_texel(s, b, grid, light, std::vector<glm::vec3>(light.voxels().size(), glm::vec3(1)), false);
-  const auto pieces = find_pieces(b, s.density, 20, false);
+  const auto pieces = find_pieces(b, s.density, 20);
   double volume = 0;
   for (const MediaPiece& p : pieces) {
     EXPECT_LE(p.intervals, 20);

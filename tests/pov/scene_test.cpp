@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <array>
+#include <cmath>
 #include <set>
+#include <sstream>
 
 #include "pov/near_cells.hpp"
 #include "pov/plan.hpp"
@@ -63,23 +66,44 @@ TEST_F(SceneTest, PovrayMissingNamesThePackage) {
   EXPECT_FALSE(fs::exists(folder / "out.png"));
 }
 
-TEST(BoxInset, NeighboursNeverShareAFace) {
+TEST(BoxOverlap, NeighboursNeverShareAFaceNorLeaveAGap) {
   for (int j = -2; j < 3; ++j)
     for (int i = -2; i < 3; ++i) {
-      EXPECT_GT(box_inset(i, j), 0.0);
       std::set<double> seen;
       for (int b = 0; b < 2; ++b)
-        for (int a = 0; a < 2; ++a) seen.insert(box_inset(i + a, j + b));
+        for (int a = 0; a < 2; ++a) seen.insert(box_overlap(i + a, j + b));
       EXPECT_EQ(seen.size(), 4u);  // any 2 x 2 block: all different, so tops and bottoms of neighbours differ too
+      // The walls of two neighbours cross by more than what POV-Ray takes for one and the same hit (1e-4 units).
+      const double right = kUnitsPerTile * (1 + box_overlap(i, j)), left = kUnitsPerTile * (1 - box_overlap(i + 1, j));
+      EXPECT_GT(right - left, 5e-4);
     }
 }
 
-TEST_F(SceneTest, BoxesOfAFieldKeepApart) {
-  // Upright boxes of level cells: their walls must keep a gap wider than what POV-Ray skips.
-  for (int i = 0; i < 4; ++i) {
-    const double right = kUnitsPerTile * (i + 1 - box_inset(i, 0)), left = kUnitsPerTile * (i + 1 + box_inset(i + 1, 0));
-    EXPECT_GT(left - right, 1e-3);
+/// Two corners of every box of a scene, in the box's own coordinates.
+std::vector<std::array<double, 6>> boxes_of(const std::string& scene) {
+  std::vector<std::array<double, 6>> out;
+  for (std::size_t at = scene.find("\nbox{<"); at != std::string::npos; at = scene.find("\nbox{<", at + 1)) {
+    std::array<double, 6> v;
+    std::string numbers = scene.substr(at + 6, scene.find(" hollow", at) - at - 6);
+    for (char& c : numbers)
+      if (c == '<' || c == '>' || c == ',') c = ' ';
+    std::istringstream in(numbers);
+    for (double& x : v) in >> x;
+    EXPECT_TRUE(bool(in)) << numbers;
+    out.push_back(v);
   }
+  return out;
+}
+
+TEST_F(SceneTest, PiecesOfATexelShareNoFace) {
+  input.still.looks = {"texel"};
+  const auto boxes = boxes_of(read_file(write_scenes(folder, input)[0]));
+  ASSERT_GT(boxes.size(), 4u);
+  for (std::size_t a = 0; a < boxes.size(); ++a)
+    for (std::size_t b = 0; b < boxes.size(); ++b)
+      for (int k = 0; k < 3; ++k)
+        // A box must not begin where another one ends.
+        if (a != b) EXPECT_GT(std::abs(boxes[a][k] - boxes[b][3 + k]), 3e-4) << a << " " << b << " " << k;
 }
 
 TEST_F(SceneTest, NearCellHoldsWhatLeansIn) {
