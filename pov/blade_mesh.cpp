@@ -57,8 +57,8 @@ struct MeshText {
   }
 };
 
-/// Vertices across the blade at one node, left to right: position along side (in half-widths), rise along the face
-/// normal, and lean of the normal to that side (radians, beyond the facet's own).
+/// Vertices across the blade at one node, left to right: position along side (in half-widths), rise along the
+/// face normal, and lean of the normal to that side (radians, beyond the facet's own).
 struct Across {
   double offset, rise, lean;
 };
@@ -72,7 +72,9 @@ std::vector<Across> section(const BladeDetail& d, const Node& n) {
 
 }  // namespace
 
-AtlasLayout atlas_layout(int blades) { return {blades, 32, blades <= 2000 ? 8 : 4}; }
+AtlasLayout atlas_layout(int blades) {
+  return {blades, 32, blades <= 2000 ? 8 : 4};
+}
 
 std::string blade_mesh(const BladeRibbons& b, const BladeDetail& detail, double unit) {
   MeshText m;
@@ -106,7 +108,9 @@ std::string blade_mesh(const BladeRibbons& b, const BladeDetail& detail, double 
         for (const Across& x : section(detail, n)) {
           const glm::dvec3 p = n.center + n.half_width * (x.offset * n.side + x.rise * face);
           now.push_back(m.add(p, face * std::cos(x.lean) + n.side * std::sin(x.lean), u_of(s),
-                              v_of(x.offset < 0 ? -1 : x.offset > 0 ? 1 : 0)));
+                              v_of(x.offset < 0   ? -1
+                                   : x.offset > 0 ? 1
+                                                  : 0)));
         }
       }
       for (std::size_t i = 0; !previous.empty() && i + 1 < now.size(); ++i) {
@@ -136,8 +140,9 @@ BladeAtlas blade_atlas(const BladeRibbons& b, std::span<const float> sky, const 
       const int k = std::min(int(at), n - 2);
       const float f = float(at - k);
       const std::size_t i = std::size_t(blade) * n + k, j = i + 1;
-      const LeafOptics leaf = leaf_optics(glm::mix(b.diffuse[i], b.diffuse[j], f),
-                                          glm::mix(b.chlorophyll_ug_cm2[i], b.chlorophyll_ug_cm2[j], f) / kFreshChlorophyll);
+      const LeafOptics leaf =
+          leaf_optics(glm::mix(b.diffuse[i], b.diffuse[j], f),
+                      glm::mix(b.chlorophyll_ug_cm2[i], b.chlorophyll_ug_cm2[j], f) / kFreshChlorophyll);
       const double seen = glm::mix(sky[i], sky[j], f);
       const glm::vec3 other(light.sky_rgb * seen + scattered_light(light, mean_albedo, seen));
       for (int r = 0; r < rows; ++r) {

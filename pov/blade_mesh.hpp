@@ -12,7 +12,7 @@ namespace witherfield::pov {
 /// How finely blades are drawn.
 struct BladeDetail {
   int segments = 8;
-  bool folded = true;   ///< two facets across (the V), else one
+  bool folded = true;  ///< two facets across (the V), else one
 };
 
 /// Rows and columns of the pictures: along x root to tip, `rows` pixels in y per blade.
@@ -22,10 +22,12 @@ struct AtlasLayout {
 };
 AtlasLayout atlas_layout(int blades);
 
-/// mesh2{...} in texel coordinates (flipped, times unit), with normals splayed as across a round blade, uv for the atlas.
+/// mesh2{...} in texel coordinates (flipped, times unit), with normals splayed as across a round blade, uv
+/// for the atlas.
 std::string blade_mesh(const BladeRibbons& blades, const BladeDetail& detail, double unit);
 
-/// Three pictures of the same layout: reflectance, transmittance, and the light that is not the sun's beam (radiance).
+/// Three pictures of the same layout: reflectance, transmittance, and the light that is not the sun's beam
+/// (radiance).
 struct BladeAtlas {
   AtlasLayout layout;
   std::vector<glm::vec3> reflected, transmitted, ambient;

@@ -17,7 +17,9 @@ namespace {
 constexpr double kAmbientFull = 2.0;  // radiance that is full scale in the picture of ambient light
 
 /// Detail by the blade's width on the picture, in pixels.
-int detail_level(double width_px) { return width_px > 6 ? 0 : width_px > 2 ? 1 : width_px > 0.6 ? 2 : 3; }
+int detail_level(double width_px) {
+  return width_px > 6 ? 0 : width_px > 2 ? 1 : width_px > 0.6 ? 2 : 3;
+}
 BladeDetail detail_of(int level) {
   constexpr BladeDetail kDetail[] = {{14, true}, {8, true}, {5, false}, {3, false}};
   return kDetail[level];
@@ -62,14 +64,17 @@ struct BladeWriter {
     write_pictures(atlas, variant);
     const std::string v = std::to_string(variant), stem = c.stem + "_v" + v;
     const auto picture = [&](const char* which, const char* transmit) {
-      return "pigment{uv_mapping image_map{png \"" + stem + which + ".png\" gamma 1.0 interpolate 2" + transmit + "}}";
+      return "pigment{uv_mapping image_map{png \"" + stem + which + ".png\" gamma 1.0 interpolate 2" +
+             transmit + "}}";
     };
     const double gloss = 0.07 * mean_freshness(b) + 0.03;
-    // Three layers, each a third of what is seen: the sun's beam on this side, through the blade, and all other light.
-    declarations << "#declare V" << v << "=texture{" << picture("_reflected", "") << " finish{diffuse 3,0 specular "
-                 << 3 * gloss << " roughness 0.035}}\n texture{" << picture("_transmitted", " transmit all 0.5")
-                 << " finish{diffuse 0,3}}\n texture{" << picture("_ambient", " transmit all 0.666667")
-                 << " finish{diffuse 0 emission " << 3 * kAmbientFull << "}}\n";
+    // Three layers, each a third of what is seen: the sun's beam on this side, through the blade, and all
+    // other light.
+    declarations << "#declare V" << v << "=texture{" << picture("_reflected", "")
+                 << " finish{diffuse 3,0 specular " << 3 * gloss << " roughness 0.035}}\n texture{"
+                 << picture("_transmitted", " transmit all 0.5") << " finish{diffuse 0,3}}\n texture{"
+                 << picture("_ambient", " transmit all 0.666667") << " finish{diffuse 0 emission "
+                 << 3 * kAmbientFull << "}}\n";
   }
 
   static double mean_freshness(const BladeRibbons& b) {
@@ -130,12 +135,12 @@ std::filesystem::path write_blade_field(const SceneContext& c, const Progress& p
       w.declare_texture(s.at.variant, false);
       mesh = w.declare_mesh(s.at.variant, level);
     }
-    instances << "object{" << mesh << " texture{V" << s.at.variant << "}" << instance_matrix(s.at, c.input->tile_m, c.unit)
-              << "}\n";
+    instances << "object{" << mesh << " texture{V" << s.at.variant << "}"
+              << instance_matrix(s.at, c.input->tile_m, c.unit) << "}\n";
   }
   Text t;
-  t << head_text(head_of(c), c.stem) << atmosphere_text(c) << terrain_text(c, w.ground, true) << w.declarations.str()
-    << instances.str();
+  t << head_text(head_of(c), c.stem) << atmosphere_text(c) << terrain_text(c, w.ground, true)
+    << w.declarations.str() << instances.str();
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());
   return path;
@@ -150,8 +155,8 @@ std::filesystem::path write_blades_alone(const SceneContext& c, const Progress& 
   if (!grid) throw InvalidInput("write_scenes: variant 0 has no texel");
   const TexelPrelight light(*grid, false, mean_blade_width_m(*c.input, 0));
   Text t;
-  t << head_text(head_of(c), c.stem) << atmosphere_text(c) << studio_text(c, light, false) << w.declarations.str()
-    << "object{" << mesh << " texture{V0}}\n";
+  t << head_text(head_of(c), c.stem) << atmosphere_text(c) << studio_text(c, light, false)
+    << w.declarations.str() << "object{" << mesh << " texture{V0}}\n";
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());
   return path;

@@ -12,8 +12,8 @@ std::string encode_df3(std::span<const float> values, int nx, int ny, int nz, do
       throw InvalidInput("encode_df3: a side must have 1..65535 samples, got " + std::to_string(n));
   const std::size_t count = std::size_t(nx) * ny * nz;
   if (values.size() != count)
-    throw InvalidInput("encode_df3: " + std::to_string(values.size()) + " values for " + std::to_string(count) +
-                       " samples");
+    throw InvalidInput("encode_df3: " + std::to_string(values.size()) + " values for " +
+                       std::to_string(count) + " samples");
   std::string out;
   out.resize(6 + count);
   char* p = out.data();

@@ -1,6 +1,6 @@
-// DF3, POV-Ray's density file: three big-endian u16 (x, y, z in POV-Ray's axes), then 8-bit samples, x fastest.
-// Traps (read from POV-Ray's own reader): sample i sits at i/N of the unit cube, not at (i + 1/2)/N, and
-// interpolation wraps from the last sample to the first.
+// DF3, POV-Ray's density file: three big-endian u16 (x, y, z in POV-Ray's axes), then 8-bit samples, x
+// fastest. Traps (read from POV-Ray's own reader): sample i sits at i/N of the unit cube, not at (i + 1/2)/N,
+// and interpolation wraps from the last sample to the first.
 #pragma once
 #include <span>
 #include <string>

@@ -35,7 +35,9 @@ struct Reader {
   const std::string& what;
   std::size_t at = 0;
 
-  [[noreturn]] void fail(const char* why) const { throw IoFailure(what + ": not a whole Radiance HDR picture (" + why + ")"); }
+  [[noreturn]] void fail(const char* why) const {
+    throw IoFailure(what + ": not a whole Radiance HDR picture (" + why + ")");
+  }
   unsigned char next() {
     if (at >= bytes.size()) fail("it ends early");
     return static_cast<unsigned char>(bytes[at++]);
@@ -123,7 +125,8 @@ std::string encode_hdr(const HdrImage& image) {
   const bool packed = image.width >= 8 && image.width <= 32767;
   std::vector<Rgbe> row(static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
-    for (std::size_t x = 0; x < row.size(); ++x) row[x] = to_rgbe(image.pixel[std::size_t(y) * row.size() + x]);
+    for (std::size_t x = 0; x < row.size(); ++x)
+      row[x] = to_rgbe(image.pixel[std::size_t(y) * row.size() + x]);
     if (!packed) {
       for (const Rgbe& p : row) out.append(reinterpret_cast<const char*>(p.data()), 4);
       continue;

@@ -13,7 +13,8 @@ struct HdrImage {
   std::vector<glm::vec3> pixel;  ///< row by row from the top
 };
 
-/// Decodes flat and run-length encoded pictures. @throws IoFailure naming `what` when the data are not such a picture.
+/// Decodes flat and run-length encoded pictures. @throws IoFailure naming `what` when the data are not such a
+/// picture.
 HdrImage decode_hdr(std::string_view bytes, const std::string& what);
 /// Run-length encoded where the width allows (8..32767), else flat.
 std::string encode_hdr(const HdrImage& image);

@@ -8,10 +8,12 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr int kMostIntervals = 250;  // POV-Ray stops above 254 ("internal nesting limit")
+constexpr int kMostIntervals = 250;     // POV-Ray stops above 254 ("internal nesting limit")
 constexpr double kPieceOverlap = 5e-5;  // in tiles: pieces must not share a face nor leave a gap
 
-int wrap(int i, int n) { return ((i % n) + n) % n; }
+int wrap(int i, int n) {
+  return ((i % n) + n) % n;
+}
 
 /// Value that a share q of the positive entries does not exceed.
 double quantile(std::span<const float> values, double q) {
@@ -23,8 +25,8 @@ double quantile(std::span<const float> values, double q) {
   return *at;
 }
 
-void declare(Text& scene, const SceneContext& c, const MediaBlock& b, std::vector<float>& samples, double full,
-             const std::string& name) {
+void declare(Text& scene, const SceneContext& c, const MediaBlock& b, std::vector<float>& samples,
+             double full, const std::string& name) {
   // The lowest layer of grass stands also for the half voxel below it.
   const std::size_t layer = std::size_t(b.nx) * b.ny;
   std::copy_n(samples.begin() + std::ptrdiff_t(layer), layer, samples.begin());
@@ -32,16 +34,19 @@ void declare(Text& scene, const SceneContext& c, const MediaBlock& b, std::vecto
   write_file(c.folder / file, encode_df3(samples, b.nx, b.ny, b.nz, full));
   const double h = b.spacing_m * c.unit;
   // DF3 sample i lies at i/N of the unit cube: scaled to N spacings, the first sample is moved to its place.
-  scene << "#declare " << name << "=density{density_file df3 \"" << file << "\" interpolate 1 scale <" << b.nx * h << ","
-        << b.nz * h << "," << b.ny * h << "> translate " << flip(b.first_m, c.unit) << "}\n";
+  scene << "#declare " << name << "=density{density_file df3 \"" << file << "\" interpolate 1 scale <"
+        << b.nx * h << "," << b.nz * h << "," << b.ny * h << "> translate " << flip(b.first_m, c.unit)
+        << "}\n";
 }
 
 std::string interior_text(const MediaNames& names, double per_unit, const glm::dvec3& factor, int intervals) {
-  // Method 2, one sample an interval, no jitter: the only setting without bias (jitter is one-sided, method 3 never samples
-  // the far end of a box and does not attenuate within a step).
+  // Method 2, one sample an interval, no jitter: the only setting without bias (jitter is one-sided, method 3
+  // never samples the far end of a box and does not attenuate within a step).
   Text head, t;
-  head << "media{method 2 intervals max(5,min(" << kMostIntervals << ",int(" << intervals << "*IQ))) samples 1,1 jitter 0 ";
-  t << "interior{" << head.str() << "absorption " << per_unit * names.full_density << " density{" << names.density << "}}\n";
+  head << "media{method 2 intervals max(5,min(" << kMostIntervals << ",int(" << intervals
+       << "*IQ))) samples 1,1 jitter 0 ";
+  t << "interior{" << head.str() << "absorption " << per_unit * names.full_density << " density{"
+    << names.density << "}}\n";
   for (int k = 0; k < 3; ++k) {
     glm::dvec3 e(0.0);
     e[k] = per_unit * names.full_emission * factor[k];
@@ -152,20 +157,24 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& b, M
   // Where the density is cut off at full scale, the emission must be cut by the same factor.
   for (auto& channel : samples.emission)
     for (std::size_t s = 0; s < channel.size(); ++s)
-      if (samples.density[s] > names.full_density) channel[s] *= float(names.full_density) / samples.density[s];
+      if (samples.density[s] > names.full_density)
+        channel[s] *= float(names.full_density) / samples.density[s];
   names.full_emission = 0;
-  for (const auto& channel : samples.emission) names.full_emission = std::max(names.full_emission, quantile(channel, 0.999));
+  for (const auto& channel : samples.emission)
+    names.full_emission = std::max(names.full_emission, quantile(channel, 0.999));
   for (int k = 0; k < 3; ++k) {
     names.emission[k] = name + "RGB"[k];
     declare(scene, c, b, samples.emission[std::size_t(k)], names.full_emission, names.emission[k]);
   }
 }
 
-std::string quality_text() { return "#declare IQ=(QUALITY=0?0.5:(QUALITY=1?0.75:1.25));\n"; }
+std::string quality_text() {
+  return "#declare IQ=(QUALITY=0?0.5:(QUALITY=1?0.75:1.25));\n";
+}
 
-std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces, double overlap,
-                       const MediaNames& names, double depth_per_density, const glm::dvec3& factor,
-                       const std::string& transform) {
+std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces,
+                       double overlap, const MediaNames& names, double depth_per_density,
+                       const glm::dvec3& factor, const std::string& transform) {
   const double tile = c.input->tile_m, over_m = overlap * tile, piece_m = kPieceOverlap * tile;
   glm::dvec3 lo = b.box_lo_m - over_m, hi = b.box_hi_m + over_m;
   lo.z = b.box_lo_m.z + over_m;  // above the ground, below the wrap

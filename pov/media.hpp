@@ -10,11 +10,12 @@
 
 namespace witherfield::pov {
 
-/// A block of samples for a DF3 and where they lie in the texel. Along z there is one layer below the ground (a copy of the
-/// lowest one) and one empty layer above the grass; the box ends before the wrap of the interpolation.
+/// A block of samples for a DF3 and where they lie in the texel. Along z there is one layer below the ground
+/// (a copy of the lowest one) and one empty layer above the grass; the box ends before the wrap of the
+/// interpolation.
 struct MediaBlock {
   int nx = 0, ny = 0, nz = 0;
-  glm::dvec3 first_m{0.0};                  ///< position of sample (0, 0, 0)
+  glm::dvec3 first_m{0.0};  ///< position of sample (0, 0, 0)
   double spacing_m = 1;
   glm::dvec3 box_lo_m{0.0}, box_hi_m{0.0};  ///< where the samples may be used
   std::size_t samples() const { return std::size_t(nx) * ny * nz; }
@@ -33,28 +34,30 @@ struct MediaSamples {
   }
 };
 
-/// Block of a texel. @param folded true: the periodic tile, with a sample more on each side that repeats the opposite one; false: all
-/// that there is, with an empty sample around it. (POV-Ray's densities are zero outside their unit cube, so a DF3 must reach beyond the walls.)
+/// Block of a texel. @param folded true: the periodic tile, with a sample more on each side that repeats the
+/// opposite one; false: all that there is, with an empty sample around it. (POV-Ray's densities are zero
+/// outside their unit cube, so a DF3 must reach beyond the walls.)
 MediaBlock media_block(const TexelGrid& grid, bool folded);
 /// Adds all voxels of a texel to its block.
-void add_texel(MediaSamples& samples, const MediaBlock& block, const TexelGrid& grid, const TexelPrelight& light,
-               std::span<const glm::vec3> radiance, bool folded);
+void add_texel(MediaSamples& samples, const MediaBlock& block, const TexelGrid& grid,
+               const TexelPrelight& light, std::span<const glm::vec3> radiance, bool folded);
 
-/// Parts of a block that hold grass, at most piece_samples samples wide and cropped in height: rays pay for intervals only there and in
-/// proportion to their way; POV-Ray's limit of 254 intervals a box is never met.
+/// Parts of a block that hold grass, at most piece_samples samples wide and cropped in height: rays pay for
+/// intervals only there and in proportion to their way; POV-Ray's limit of 254 intervals a box is never met.
 struct MediaPiece {
   glm::dvec3 lo_m, hi_m;
   int intervals = 1;  ///< samples along the longest side
 };
-std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density, int piece_samples);
+std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density,
+                                    int piece_samples);
 
 /// Identifiers of declared densities and their values at full scale.
 struct MediaNames {
   std::string density, emission[3];
   double full_density = 1, full_emission = 1;
 };
-/// Writes the DF3s and their #declares. `declare_emission` keeps the density of `names` and replaces its emission: one density
-/// serves many lights.
+/// Writes the DF3s and their #declares. `declare_emission` keeps the density of `names` and replaces its
+/// emission: one density serves many lights.
 MediaNames declare_density(Text& scene, const SceneContext& c, const MediaBlock& block, MediaSamples& samples,
                            const std::string& name);
 void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& block, MediaSamples& samples,
@@ -62,10 +65,10 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& bloc
 
 /// #declares of the intervals' quality; before any boxes.
 std::string quality_text();
-/// The boxes of one texel. @param overlap tiles, see box_overlap; @param depth_per_density optical depth of a sample's
-/// spacing at density 1; @param factor on the emission.
-std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces, double overlap,
-                       const MediaNames& names, double depth_per_density, const glm::dvec3& factor,
-                       const std::string& transform);
+/// The boxes of one texel. @param overlap tiles, see box_overlap; @param depth_per_density optical depth of a
+/// sample's spacing at density 1; @param factor on the emission.
+std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces,
+                       double overlap, const MediaNames& names, double depth_per_density,
+                       const glm::dvec3& factor, const std::string& transform);
 
 }  // namespace witherfield::pov

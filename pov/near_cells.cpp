@@ -12,7 +12,8 @@ struct Landing {
   double height;  // in voxels above the cell's plane
 };
 
-Landing land(const TexelInstance& cell, const TexelInstance& part, double tile_m, double h, const glm::dvec3& p_m) {
+Landing land(const TexelInstance& cell, const TexelInstance& part, double tile_m, double h,
+             const glm::dvec3& p_m) {
   const glm::dvec3 w = to_world(part, tile_m, p_m);
   const double dx = w.x - cell.origin_m.x, dy = w.y - cell.origin_m.y;
   const double plane = cell.origin_m.z + cell.slope_x * dx + cell.slope_y * dy;
@@ -56,7 +57,8 @@ NearCell merge_cell(const TexelInstance& cell, double tile_m, const std::vector<
       const int z = int(at);
       const float upper = float(at - z), rho = parts[k].light->density()[i];
       const glm::vec3 radiance = (*parts[k].radiance)[i] * glm::vec3(factor[k]);
-      const std::size_t base = (std::size_t(z) * b.ny + (l.y + 1)) * b.nx + (l.x + 1), layer = std::size_t(b.nx) * b.ny;
+      const std::size_t base = (std::size_t(z) * b.ny + (l.y + 1)) * b.nx + (l.x + 1),
+                        layer = std::size_t(b.nx) * b.ny;
       out.samples.add(base, rho * (1 - upper), radiance);
       if (upper > 0) out.samples.add(base + layer, rho * upper, radiance);
     }

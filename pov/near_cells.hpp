@@ -1,6 +1,6 @@
-// Near texels: each cell gets a block of its own that holds all grass inside its footprint, also the blades that lean in from
-// its eight neighbours, voxel for voxel (turns and mirrors map the grids onto each other). So no blade is cut at a
-// cell's border and no two boxes overlap.
+// Near texels: each cell gets a block of its own that holds all grass inside its footprint, also the blades
+// that lean in from its eight neighbours, voxel for voxel (turns and mirrors map the grids onto each other).
+// So no blade is cut at a cell's border and no two boxes overlap.
 #pragma once
 #include <map>
 #include <utility>

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kNearTiles = 6;       // nearer texels are merged cell by cell
 constexpr double kFoldedPixels = 10;   // tiles less wide than this on the picture are folded
-constexpr int kRingCells = 28;       // most texels in the ring around a placement
+constexpr int kRingCells = 28;         // most texels in the ring around a placement
 constexpr double kFinestPixels = 0.8;  // a finer voxel than this on the picture is not worth its memory
-constexpr double kRingPixels = 1.3;  // what the ring is given
+constexpr double kRingPixels = 1.3;    // what the ring is given
 
 double smoothstep(double x) {
   x = std::clamp(x, 0.0, 1.0);
@@ -73,7 +73,8 @@ Surroundings::Surroundings(const Placement& placement) : placement_(&placement) 
   y1_ = y0_ + placement.cells_y * placement.tile_m;
   double low = 1e300, high = -1e300;
   for (const TexelInstance& t : placement.instances) {
-    if (t.cell_i > 0 && t.cell_j > 0 && t.cell_i < placement.cells_x - 1 && t.cell_j < placement.cells_y - 1) continue;
+    if (t.cell_i > 0 && t.cell_j > 0 && t.cell_i < placement.cells_x - 1 && t.cell_j < placement.cells_y - 1)
+      continue;
     low = std::min(low, t.origin_m.z);
     high = std::max(high, t.origin_m.z);
   }
@@ -100,7 +101,8 @@ StandPlan plan_stands(const SceneInput& in, const Surroundings* around, double m
     const glm::dvec3 centre = to_world(t, tile, {tile / 2, tile / 2, tile / 4});
     s.distance_m = std::max(glm::length(centre - eye.position_m), 0.2 * tile);
     if (!eye.sees(centre, 1.1 * tile + margin_m)) return;
-    const int useful = lod_for(in, t.variant, s.distance_m, eye.pixels_per_rad, ring ? kRingPixels : kFinestPixels);
+    const int useful =
+        lod_for(in, t.variant, s.distance_m, eye.pixels_per_rad, ring ? kRingPixels : kFinestPixels);
     s.at.lod = ring ? useful : std::max(t.lod, useful);
     if (s.distance_m < kNearTiles * tile)
       s.boxing = Boxing::merged;
@@ -134,7 +136,9 @@ StandPlan plan_stands(const SceneInput& in, const Surroundings* around, double m
   return plan;
 }
 
-double box_overlap(int cell_i, int cell_j) { return 0.00005 * (1 + (cell_i & 1) + 2 * (cell_j & 1)); }
+double box_overlap(int cell_i, int cell_j) {
+  return 0.00005 * (1 + (cell_i & 1) + 2 * (cell_j & 1));
+}
 
 TexelInstance smoothed(const StandPlan& plan, const TexelInstance& t) {
   TexelInstance mean = t;

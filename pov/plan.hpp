@@ -1,5 +1,5 @@
-// What of a run a picture shows and how finely: the instances inside the view, their level of detail, the meadow around the
-// terrain's cut borders, and boxes for the media that never share a face.
+// What of a run a picture shows and how finely: the instances inside the view, their level of detail, the
+// meadow around the terrain's cut borders, and boxes for the media that never share a face.
 #pragma once
 #include <glm/vec3.hpp>
 #include <map>
@@ -11,21 +11,23 @@
 
 namespace witherfield::pov {
 
-/// POV-Ray ignores hits nearer than 1e-4 units and loses grazing ones below 1e-3: a tile is made this many units wide.
+/// POV-Ray ignores hits nearer than 1e-4 units and loses grazing ones below 1e-3: a tile is made this many
+/// units wide.
 inline constexpr double kUnitsPerTile = 10.0;
 
 /// The eye as a pinhole, for culling and for pixel sizes.
 struct Eye {
   glm::dvec3 position_m, forward, right, up;
-  double tan_x, tan_y;     ///< half extents of the picture at distance 1
-  double pixels_per_rad;   ///< at the middle of the picture
+  double tan_x, tan_y;    ///< half extents of the picture at distance 1
+  double pixels_per_rad;  ///< at the middle of the picture
   explicit Eye(const Still& still);
   /// Does a sphere show, or could what is within `reach_m` of it?
   bool sees(const glm::dvec3& centre_m, double radius_m) const;
 };
 
-/// How a texel's media are boxed: near ones are merged with what leans in from their neighbours, cell by cell; farther ones keep their own
-/// overhanging blades in boxes that overlap; where a tile is a few pixels wide the folded tile will do.
+/// How a texel's media are boxed: near ones are merged with what leans in from their neighbours, cell by
+/// cell; farther ones keep their own overhanging blades in boxes that overlap; where a tile is a few pixels
+/// wide the folded tile will do.
 enum class Boxing { merged, overhanging, folded };
 
 /// One texel that is drawn. `at.lod` is what the picture uses.
@@ -42,8 +44,8 @@ class Surroundings {
   Surroundings(const Placement& placement);
   double height_m(double x_m, double y_m) const;  ///< beyond the placement; on its border the terrain's own
   double plain_m() const { return plain_m_; }
-  double reach_m() const { return reach_m_; }     ///< where the plain begins
-  int cells() const { return cells_; }            ///< width of the ring of extra texels
+  double reach_m() const { return reach_m_; }  ///< where the plain begins
+  int cells() const { return cells_; }         ///< width of the ring of extra texels
   double low_x_m() const { return x0_; }
   double low_y_m() const { return y0_; }
   double high_x_m() const { return x1_; }
@@ -56,22 +58,26 @@ class Surroundings {
 };
 
 struct StandPlan {
-  std::vector<Stand> stands;                                ///< what is drawn
-  std::map<std::pair<int, int>, TexelInstance> cells;       ///< all texels there are, by cell
+  std::vector<Stand> stands;                           ///< what is drawn
+  std::map<std::pair<int, int>, TexelInstance> cells;  ///< all texels there are, by cell
 };
 
-/// Instances to draw: those of the placement in view (LOD never finer than what the picture can show), and a ring of texels
-/// around it so that the hill does not end in a cut. @param margin_m how far outside the view an instance still matters.
+/// Instances to draw: those of the placement in view (LOD never finer than what the picture can show), and a
+/// ring of texels around it so that the hill does not end in a cut. @param margin_m how far outside the view
+/// an instance still matters.
 StandPlan plan_stands(const SceneInput& input, const Surroundings* around, double margin_m);
 
-/// How far, in tiles, a texel's box reaches over its walls (and stands above its ground): > 0, and different for all neighbours, so that no
-/// two faces coincide (which makes POV-Ray lose whole boxes) and no gap is left (which shows as a dark line when seen edge-on).
+/// How far, in tiles, a texel's box reaches over its walls (and stands above its ground): > 0, and different
+/// for all neighbours, so that no two faces coincide (which makes POV-Ray lose whole boxes) and no gap is
+/// left (which shows as a dark line when seen edge-on).
 double box_overlap(int cell_i, int cell_j);
 
-/// Slopes and sun visibility as the light sees them: means over a cell and its neighbours, so that tiles do not show as facets.
+/// Slopes and sun visibility as the light sees them: means over a cell and its neighbours, so that tiles do
+/// not show as facets.
 TexelInstance smoothed(const StandPlan& plan, const TexelInstance& t);
 
-/// Direction or position of the world in the frame of a texel instance (inverse of its mirror and quarter turns).
+/// Direction or position of the world in the frame of a texel instance (inverse of its mirror and quarter
+/// turns).
 glm::dvec3 to_local_direction(const TexelInstance& t, const glm::dvec3& world);
 /// POV-Ray's "matrix<...>" that takes texel coordinates (flipped, in units) to the world.
 std::string instance_matrix(const TexelInstance& t, double tile_m, double unit);

@@ -63,7 +63,8 @@ void append16(std::vector<png_byte>& out, float v) {
   out.push_back(png_byte(level & 255));
 }
 
-void check_size(const std::filesystem::path& path, int width, int height, std::size_t got, std::size_t per_pixel) {
+void check_size(const std::filesystem::path& path, int width, int height, std::size_t got,
+                std::size_t per_pixel) {
   if (width < 1 || height < 1 || got != std::size_t(width) * height * per_pixel)
     throw InvalidInput("write_png: " + path.string() + ": " + std::to_string(got) + " values for " +
                        std::to_string(width) + " x " + std::to_string(height) + " pixels");
@@ -77,7 +78,8 @@ void write_png(const std::filesystem::path& path, int width, int height, std::sp
   write(path, {width, height, 8, PNG_COLOR_TYPE_RGB, rgb.data(), std::size_t(width) * 3}, text);
 }
 
-void write_png_linear(const std::filesystem::path& path, int width, int height, std::span<const glm::vec3> rgb) {
+void write_png_linear(const std::filesystem::path& path, int width, int height,
+                      std::span<const glm::vec3> rgb) {
   check_size(path, width, height, rgb.size(), 1);
   std::vector<png_byte> bytes;
   bytes.reserve(rgb.size() * 6);

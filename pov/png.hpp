@@ -16,7 +16,8 @@ using PngText = std::vector<std::pair<std::string, std::string>>;  ///< keyword,
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb,
                const PngText& text = {});
 /// 16-bit, linear: value 1 is full scale, clamped. For image_map with gamma 1.0.
-void write_png_linear(const std::filesystem::path& path, int width, int height, std::span<const glm::vec3> rgb);
+void write_png_linear(const std::filesystem::path& path, int width, int height,
+                      std::span<const glm::vec3> rgb);
 /// 16-bit grey, linear, clamped to [0, 1].
 void write_png_grey(const std::filesystem::path& path, int width, int height, std::span<const float> grey);
 

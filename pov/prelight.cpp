@@ -10,8 +10,8 @@
 namespace witherfield::pov {
 namespace {
 
-/// Share of the sun's beam on a blade, free of its sign: half the face's cosine, half the fibre's sin(t, l) (Kajiya & Kay 1989),
-/// whose mean over the turns of the blade about its axis is 2/pi sin(t, l).
+/// Share of the sun's beam on a blade, free of its sign: half the face's cosine, half the fibre's sin(t, l)
+/// (Kajiya & Kay 1989), whose mean over the turns of the blade about its axis is 2/pi sin(t, l).
 double beam_share(const glm::dvec3& normal, const glm::dvec3& tangent, const glm::dvec3& light) {
   const double along = glm::dot(tangent, light), fibre = std::sqrt(std::max(0.0, 1 - along * along));
   const double mean = 2 / std::numbers::pi * fibre;
@@ -19,7 +19,8 @@ double beam_share(const glm::dvec3& normal, const glm::dvec3& tangent, const glm
   return n2 < 1e-6 ? mean : 0.6 * std::abs(glm::dot(normal, light)) + 0.4 * mean;
 }
 
-/// 1 when light and eye are on the same side of the face, 0 when on opposite sides, in between when nearly edge-on.
+/// 1 when light and eye are on the same side of the face, 0 when on opposite sides, in between when nearly
+/// edge-on.
 double same_side(const glm::dvec3& normal, const glm::dvec3& light, const glm::dvec3& eye) {
   return 0.5 + 0.5 * std::clamp(8 * glm::dot(normal, light) * glm::dot(normal, eye), -1.0, 1.0);
 }
@@ -37,8 +38,8 @@ glm::dvec3 scattered_light(const Illumination& light, const glm::dvec3& mean_alb
   return mean_albedo * incoming * (0.7 * std::pow(std::max(sky, 0.0), 0.75));
 }
 
-std::vector<float> sky_visibility(const DenseDensity& block, double per_density, std::span<const glm::dvec3> points_m,
-                                  double offset_m) {
+std::vector<float> sky_visibility(const DenseDensity& block, double per_density,
+                                  std::span<const glm::dvec3> points_m, double offset_m) {
   std::vector<double> sum(points_m.size(), 0.0);
   for (const DomeSample& d : sky_dome()) {
     const OpticalDepth depth(block, d.direction, per_density);
@@ -51,7 +52,8 @@ std::vector<float> sky_visibility(const DenseDensity& block, double per_density,
 }
 
 TexelPrelight::TexelPrelight(const TexelGrid& grid, bool periodic, double blade_width_m)
-    : block_(densify(grid, periodic)), per_density_(depth_per_density(blade_width_m, grid.shape().spacing_m)),
+    : block_(densify(grid, periodic)),
+      per_density_(depth_per_density(blade_width_m, grid.shape().spacing_m)),
       start_m_(ray_start_m(blade_width_m, grid.shape().spacing_m)) {
   gather(grid);
   sky_ = sky_visibility(block_, per_density_, point_m_, start_m_);
@@ -129,8 +131,9 @@ std::vector<glm::dvec3> TexelPrelight::ground_points() const {
   constexpr int kSide = 48;
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i)
-      points.push_back(block_.origin_m + glm::dvec3((i + 0.5) / kSide * block_.nx, (j + 0.5) / kSide * block_.ny, 0) *
-                                             block_.spacing_m);
+      points.push_back(block_.origin_m +
+                       glm::dvec3((i + 0.5) / kSide * block_.nx, (j + 0.5) / kSide * block_.ny, 0) *
+                           block_.spacing_m);
   return points;
 }
 

@@ -28,21 +28,25 @@ struct RemoveAtExit {
 std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
   if (head.depth_of_field) return {"-A"};
   if (head.look == "texel") {
-    if (quality == Quality::final || (quality == Quality::good && !head.field)) return {"+AM2", "+A0.1", "+R2", "-J"};
+    if (quality == Quality::final || (quality == Quality::good && !head.field))
+      return {"+AM2", "+A0.1", "+R2", "-J"};
     return {"-A"};
   }
   switch (quality) {
-    case Quality::draft: return {"+AM1", "+A0.3", "+R2", "-J"};
-    case Quality::good: return {"+AM2", "+A0.1", "+R3", "-J"};
-    case Quality::final: break;
+    case Quality::draft:
+      return {"+AM1", "+A0.3", "+R2", "-J"};
+    case Quality::good:
+      return {"+AM2", "+A0.1", "+R3", "-J"};
+    case Quality::final:
+      break;
   }
   return {"+AM2", "+A0.05", "+R4", "-J"};
 }
 
 }  // namespace
 
-RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png, const RenderOptions& options,
-                          const Progress& progress) {
+RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png,
+                          const RenderOptions& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const std::string text = read_file(scene);
   const SceneHead head = parse_head(text, scene.string());
@@ -51,16 +55,26 @@ RenderResult render_scene(const std::filesystem::path& scene, const std::filesys
   const std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
   const std::string raw = scene.stem().string() + "." + std::to_string(getpid()) + ".part.hdr";
   const RemoveAtExit cleanup{{folder / raw, folder / (scene.stem().string() + ".pov-state")}};
-  std::vector<std::string> arguments{"+I" + scene.filename().string(), "+O" + raw, "+FH", "-D", "-P", "+W" + std::to_string(width), "+H" + std::to_string(height),
+  std::vector<std::string> arguments{"+I" + scene.filename().string(),
+                                     "+O" + raw,
+                                     "+FH",
+                                     "-D",
+                                     "-P",
+                                     "+W" + std::to_string(width),
+                                     "+H" + std::to_string(height),
                                      "Declare=QUALITY=" + std::to_string(int(options.quality))};
   if (options.threads > 0) arguments.push_back("+WT" + std::to_string(options.threads));
   for (const std::string& a : antialiasing(head, options.quality)) arguments.push_back(a);
   run_povray(folder, arguments, progress);
-  const HdrImage image = decode_hdr(read_file(folder / raw), scene.stem().string() + ": what povray rendered");
+  HdrImage image = decode_hdr(read_file(folder / raw), scene.stem().string() + ": what povray rendered");
+  const bool media = head.look == "texel";
+  if (media) mend_specks(image);
   std::error_code error;
   if (png.has_parent_path()) std::filesystem::create_directories(png.parent_path(), error);
-  write_png(png, image.width, image.height, develop(image, head.exposure, head.look == "texel" ? 0.8 : 0.0),
-            {{"Software", "witherfield"}, {"Title", scene.stem().string()}, {"Comment", "rendered with POV-Ray; " + head.look + " look"}});
+  write_png(png, image.width, image.height, develop(image, head.exposure, media ? 0.8 : 0.0),
+            {{"Software", "witherfield"},
+             {"Title", scene.stem().string()},
+             {"Comment", "rendered with POV-Ray; " + head.look + " look"}});
   return {png, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 

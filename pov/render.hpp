@@ -10,9 +10,9 @@ namespace witherfield::pov {
 enum class Quality { draft, good, final };
 
 struct RenderOptions {
-  int width_px = 0, height_px = 0;   ///< 0 = as the scene says
+  int width_px = 0, height_px = 0;  ///< 0 = as the scene says
   Quality quality = Quality::good;
-  int threads = 0;                   ///< 0 = all
+  int threads = 0;  ///< 0 = all
 };
 
 struct RenderResult {
@@ -21,7 +21,9 @@ struct RenderResult {
 };
 
 /// Renders one scene file to images/<stem>.png beside the pov folder. Progress comes from povray's own rows.
-/// @throws IoFailure when povray is missing (names the Debian package), fails (its last messages) or the picture cannot be written; nothing half-written stays.
-RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png, const RenderOptions& options, const Progress& progress = {});
+/// @throws IoFailure when povray is missing (names the Debian package), fails (its last messages) or the
+/// picture cannot be written; nothing half-written stays.
+RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png,
+                          const RenderOptions& options, const Progress& progress = {});
 
 }  // namespace witherfield::pov

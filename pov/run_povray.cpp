@@ -17,7 +17,8 @@ extern char** environ;
 namespace witherfield::pov {
 namespace {
 
-/// Collects povray's messages: its lines end in \n, its progress in \r ("Rendered 1234 of 230400 pixels (0%)").
+/// Collects povray's messages: its lines end in \n, its progress in \r ("Rendered 1234 of 230400 pixels
+/// (0%)").
 class Messages {
  public:
   explicit Messages(const Progress& progress) : progress_(progress) {}
@@ -55,7 +56,8 @@ class Messages {
     const char* p = line_.data() + head.size();
     const char* end = line_.data() + line_.size();
     auto r = std::from_chars(p, end, a);
-    if (r.ec != std::errc{} || std::string_view(r.ptr, std::size_t(end - r.ptr)).substr(0, 4) != " of ") return false;
+    if (r.ec != std::errc{} || std::string_view(r.ptr, std::size_t(end - r.ptr)).substr(0, 4) != " of ")
+      return false;
     return std::from_chars(r.ptr + 4, end, b).ec == std::errc{};
   }
   const Progress& progress_;
@@ -71,7 +73,8 @@ struct SpawnActions {
 
 }  // namespace
 
-void run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const Progress& progress) {
+void run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                const Progress& progress) {
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0)
     throw IoFailure(std::string("cannot make a pipe for povray: ") + std::strerror(errno));
@@ -105,8 +108,9 @@ void run_povray(const std::filesystem::path& folder, const std::vector<std::stri
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  const std::string how = WIFSIGNALED(status) ? "was stopped by signal " + std::to_string(WTERMSIG(status))
-                                              : "failed with exit code " + std::to_string(WEXITSTATUS(status));
+  const std::string how = WIFSIGNALED(status)
+                              ? "was stopped by signal " + std::to_string(WTERMSIG(status))
+                              : "failed with exit code " + std::to_string(WEXITSTATUS(status));
   throw IoFailure("povray " + how + "; its last messages:" + messages.last());
 }
 

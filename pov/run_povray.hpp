@@ -8,8 +8,10 @@
 
 namespace witherfield::pov {
 
-/// Runs povray with `arguments` in `folder` (its default configuration lets it read and write only there). Progress is
-/// read from its messages. @throws IoFailure when povray is missing (names the Debian package) or fails (its last messages).
-void run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const Progress& progress);
+/// Runs povray with `arguments` in `folder` (its default configuration lets it read and write only there).
+/// Progress is read from its messages. @throws IoFailure when povray is missing (names the Debian package) or
+/// fails (its last messages).
+void run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                const Progress& progress);
 
 }  // namespace witherfield::pov

@@ -10,7 +10,9 @@
 namespace witherfield::pov {
 namespace {
 
-std::string rgb(const glm::dvec3& c) { return (Text() << "rgb" << c).str(); }
+std::string rgb(const glm::dvec3& c) {
+  return (Text() << "rgb" << c).str();
+}
 
 double scene_size_m(const SceneContext& c) {
   return std::max(c.around->high_x_m() - c.around->low_x_m(), c.around->high_y_m() - c.around->low_y_m());
@@ -46,8 +48,9 @@ void GroundLight::add(const GroundLight& m, double more_weight) {
 
 std::string head_text(const SceneHead& h, const std::string& title) {
   Text t;
-  t << "// witherfield scene: " << title << "\n// width_px " << h.width_px << " height_px " << h.height_px << " exposure "
-    << h.exposure << " look " << h.look << " depth_of_field " << int(h.depth_of_field) << " field " << int(h.field)
+  t << "// witherfield scene: " << title << "\n// width_px " << h.width_px << " height_px " << h.height_px
+    << " exposure " << h.exposure << " look " << h.look << " depth_of_field " << int(h.depth_of_field)
+    << " field " << int(h.field)
     << "\n// Render as HDR (+FH) in this folder; tone mapping follows. QUALITY: 0 draft, 1 good, 2 final.\n";
   return t.str();
 }
@@ -59,10 +62,12 @@ SceneHead parse_head(const std::string& text, const std::string& file) {
   std::string key[6], slashes;
   std::istringstream in(at == std::string::npos ? "" : text.substr(at + 1, 200));
   in.imbue(std::locale::classic());
-  in >> slashes >> key[0] >> h.width_px >> key[1] >> h.height_px >> key[2] >> h.exposure >> key[3] >> h.look >> key[4] >>
-      dof >> key[5] >> field;
-  if (!in || !text.starts_with("// witherfield scene") || h.width_px < 1 || h.height_px < 1 || !(h.exposure > 0))
-    throw InvalidInput(file + " is not a scene written by witherfield (its first lines do not say size and exposure)");
+  in >> slashes >> key[0] >> h.width_px >> key[1] >> h.height_px >> key[2] >> h.exposure >> key[3] >>
+      h.look >> key[4] >> dof >> key[5] >> field;
+  if (!in || !text.starts_with("// witherfield scene") || h.width_px < 1 || h.height_px < 1 ||
+      !(h.exposure > 0))
+    throw InvalidInput(
+        file + " is not a scene written by witherfield (its first lines do not say size and exposure)");
   h.depth_of_field = dof != 0;
   h.field = field != 0;
   return h;
@@ -81,7 +86,8 @@ std::string atmosphere_text(const SceneContext& c) {
     << rgb(c.day->sun_rgb) << " parallel point_at 0 media_interaction off}\n";
   if (!c.around) {  // a pale wall, into which the studio's floor runs
     const glm::dvec3 wall = backdrop_rgb(c);
-    t << "sky_sphere{pigment{gradient y color_map{[0 " << rgb(wall) << "][0.6 " << rgb(wall * 0.5) << "]}}}\n";
+    t << "sky_sphere{pigment{gradient y color_map{[0 " << rgb(wall) << "][0.6 " << rgb(wall * 0.5)
+      << "]}}}\n";
     return t.str();
   }
   const std::string sky = c.stem + "_sky.hdr";
@@ -120,7 +126,8 @@ void append_terrain(Text& t, const SceneContext& c) {
   t << "}}\n";
 }
 
-/// The ring around the placement as one grid of quads, a vertex per cell corner; cells inside are left to the terrain.
+/// The ring around the placement as one grid of quads, a vertex per cell corner; cells inside are left to the
+/// terrain.
 void append_ring(Text& t, const SceneContext& c) {
   const Placement& p = *c.input->placement;
   const Surroundings& s = *c.around;
@@ -154,21 +161,21 @@ std::string terrain_text(const SceneContext& c, const GroundLight& light, bool s
   const glm::dvec3 floor = 0.55 * soil + 0.45 * light.litter_rgb;
   const glm::dvec3 around = c.day->sky_rgb * light.sky + light.scattered_rgb;
   Text t;
-  t << "#declare Floor=texture{pigment{bozo scale " << 0.12 * tile << " color_map{[0 " << rgb(floor * 0.7) << "][1 "
-    << rgb(floor * 1.25) << "]}} finish{diffuse " << share << " emission " << rgb(around) << "}}\n"
+  t << "#declare Floor=texture{pigment{bozo scale " << 0.12 * tile << " color_map{[0 " << rgb(floor * 0.7)
+    << "][1 " << rgb(floor * 1.25) << "]}} finish{diffuse " << share << " emission " << rgb(around) << "}}\n"
     << "#declare Meadow=texture{pigment{bozo scale " << 1.7 * tile << " turbulence 0.6 color_map{[0 "
     << rgb(light.canopy_rgb * 0.78) << "][1 " << rgb(light.canopy_rgb * 1.12)
     << "]}} finish{diffuse 0 emission 1}}\n";
   t << "union{\n";
-  if (c.input->ground)
-    append_terrain(t, c);
+  if (c.input->ground) append_terrain(t, c);
   append_ring(t, c);
   t << "texture{Floor}}\n";
   const Surroundings& s = *c.around;
   const double lift = s.plain_m() - 0.01 * c.input->tile_m;
-  const glm::dvec3 lo = flip({s.low_x_m(), s.low_y_m(), 0}, c.unit), hi = flip({s.high_x_m(), s.high_y_m(), 0}, c.unit);
-  t << "plane{y," << lift * c.unit << " clipped_by{box{<" << lo.x << ",-1e6," << lo.z << ">,<" << hi.x << ",1e6," << hi.z
-    << "> inverse}} texture{Meadow}}\n";
+  const glm::dvec3 lo = flip({s.low_x_m(), s.low_y_m(), 0}, c.unit),
+                   hi = flip({s.high_x_m(), s.high_y_m(), 0}, c.unit);
+  t << "plane{y," << lift * c.unit << " clipped_by{box{<" << lo.x << ",-1e6," << lo.z << ">,<" << hi.x
+    << ",1e6," << hi.z << "> inverse}} texture{Meadow}}\n";
   return t.str();
 }
 

@@ -24,13 +24,15 @@ std::vector<std::filesystem::path> write_scenes(const std::filesystem::path& fol
   if (input.placement) around = std::make_unique<Surroundings>(*input.placement);
   std::vector<std::filesystem::path> written;
   for (const std::string& look : input.still.looks) {
-    SceneContext c{&input, folder, input.still.name + "_" + look, kUnitsPerTile / input.tile_m, &day, around.get()};
+    SceneContext c{&input, folder,      input.still.name + "_" + look, kUnitsPerTile / input.tile_m,
+                   &day,   around.get()};
     if (look == "texel")
       written.push_back(around ? write_texel_field(c, progress) : write_texel_alone(c, progress));
     else if (look == "blades")
       written.push_back(around ? write_blade_field(c, progress) : write_blades_alone(c, progress));
     else
-      throw InvalidInput("still '" + input.still.name + "': unknown look '" + look + "', must be texel or blades");
+      throw InvalidInput("still '" + input.still.name + "': unknown look '" + look +
+                         "', must be texel or blades");
   }
   return written;
 }

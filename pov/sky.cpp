@@ -56,7 +56,9 @@ struct Preetham {
   }
 };
 
-double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double luminance(const glm::dvec3& c) {
+  return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
 
 /// Transmittance of the air along the sun's beam at 650, 550 and 450 nm.
 glm::dvec3 air_transmittance(double elevation_deg, double turbidity) {
@@ -66,18 +68,21 @@ glm::dvec3 air_transmittance(double elevation_deg, double turbidity) {
   glm::dvec3 out;
   const double wavelength_um[3] = {0.65, 0.55, 0.45};
   for (int c = 0; c < 3; ++c)
-    out[c] = std::exp(-mass * (0.008735 * std::pow(wavelength_um[c], -4.08) + beta * std::pow(wavelength_um[c], -1.3)));
+    out[c] = std::exp(
+        -mass * (0.008735 * std::pow(wavelength_um[c], -4.08) + beta * std::pow(wavelength_um[c], -1.3)));
   return out;
 }
 
 glm::dvec3 direction_of(double azimuth, double elevation) {
-  return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)};
+  return {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+          std::sin(elevation)};
 }
 
 }  // namespace
 
 glm::dvec3 preetham_radiance(const Sun& sun, const glm::dvec3& direction) {
-  return Preetham(sun).radiance(direction.z, std::acos(std::clamp(glm::dot(direction, sun.direction()), -1.0, 1.0)));
+  return Preetham(sun).radiance(direction.z,
+                                std::acos(std::clamp(glm::dot(direction, sun.direction()), -1.0, 1.0)));
 }
 
 Daylight make_daylight(const Sun& sun) {
@@ -97,19 +102,22 @@ Daylight make_daylight(const Sun& sun) {
       const glm::dvec3 c = model.radiance(d.z, std::acos(std::clamp(glm::dot(d, to_sun), -1.0, 1.0)));
       day.map.pixel[std::size_t(j) * kWidth + i] = glm::vec3(c);
       if (elevation > 0)
-        irradiance += c * (std::sin(elevation) * std::cos(elevation) * (2 * kPi / kWidth) * (kPi / kHeight) / kPi);
+        irradiance +=
+            c * (std::sin(elevation) * std::cos(elevation) * (2 * kPi / kWidth) * (kPi / kHeight) / kPi);
     }
   }
   // One scale for the whole picture: the sky of a 40 degree sun at turbidity 3 has kSunLuminance / kSunToSky.
   const double scale = kSunLuminance / kSunToSky / std::max(luminance(irradiance), 1e-6);
   day.sky_rgb = irradiance * scale;
-  const glm::dvec3 air = air_transmittance(sun.elevation_deg, sun.turbidity), reference = air_transmittance(40, 3);
+  const glm::dvec3 air = air_transmittance(sun.elevation_deg, sun.turbidity),
+                   reference = air_transmittance(40, 3);
   // Extraterrestrial sunlight is close to white in sRGB; the reference beam is given luminance kSunLuminance.
   day.sun_rgb = air * (kSunLuminance / luminance(reference));
   const double relative = luminance(air) * to_sun.z / (luminance(reference) * std::sin(40 * kPi / 180));
   const double dim = std::pow(std::clamp(relative, 0.05, 1.5), 0.5);  // a low sun also leaves a darker sky
   day.sky_rgb *= dim;
-  for (int i = 0; i < kWidth; ++i) horizon += glm::dvec3(day.map.pixel[std::size_t(kHeight / 2 - 12) * kWidth + i]);
+  for (int i = 0; i < kWidth; ++i)
+    horizon += glm::dvec3(day.map.pixel[std::size_t(kHeight / 2 - 12) * kWidth + i]);
   horizon *= scale * dim / kWidth;
   // Preetham's horizon is purplish: real haze is close to neutral, slightly blue.
   const double haze = luminance(horizon);

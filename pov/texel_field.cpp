@@ -1,4 +1,5 @@
-// Texels over a terrain: far ones share their densities in eight orientations, near ones are merged cell by cell.
+// Texels over a terrain: far ones share their densities in eight orientations, near ones are merged cell by
+// cell.
 #include <array>
 #include <glm/geometric.hpp>
 #include <map>
@@ -22,13 +23,15 @@ struct FarGroup {
 
 class FieldWriter {
  public:
-  FieldWriter(const SceneContext& c, const StandPlan& plan) : c_(c), plan_(plan), to_sun_(c.input->still.sun.direction()) {}
+  FieldWriter(const SceneContext& c, const StandPlan& plan)
+      : c_(c), plan_(plan), to_sun_(c.input->still.sun.direction()) {}
 
   void write(const Progress& progress) {
     std::map<FarGroup, std::vector<const Stand*>> far;
     std::vector<const Stand*> near;
     for (const Stand& s : plan_.stands)
-      (s.boxing == Boxing::merged ? near : far[{s.at.variant, s.at.lod, s.boxing == Boxing::folded}]).push_back(&s);
+      (s.boxing == Boxing::merged ? near : far[{s.at.variant, s.at.lod, s.boxing == Boxing::folded}])
+          .push_back(&s);
     const double all = double(far.size() * 4 + near.size());
     double done = 0;
     const auto report = [&](double step) {
@@ -53,7 +56,8 @@ class FieldWriter {
   const TexelPrelight& light(int variant, int lod) {
     auto& p = lights_[{variant, lod}];
     if (!p)
-      p = std::make_unique<TexelPrelight>(grid_of(*c_.input, variant, lod), true, mean_blade_width_m(*c_.input, variant));
+      p = std::make_unique<TexelPrelight>(grid_of(*c_.input, variant, lod), true,
+                                          mean_blade_width_m(*c_.input, variant));
     return *p;
   }
 
@@ -65,8 +69,8 @@ class FieldWriter {
   void note_ground(const TexelPrelight& p, const TexelPrelight::Shading& s, double weight) {
     const Illumination sun{to_sun_, c_.day->sun_rgb, c_.day->sky_rgb};
     const double sky = p.ground_sky();
-    ground_.add({p.ground_sun(to_sun_), sky, scattered_light(sun, p.mean_albedo(), sky), s.mean_sun + s.mean_rest,
-                 p.mean_diffuse()},
+    ground_.add({p.ground_sun(to_sun_), sky, scattered_light(sun, p.mean_albedo(), sky),
+                 s.mean_sun + s.mean_rest, p.mean_diffuse()},
                 weight);
   }
 
@@ -74,7 +78,8 @@ class FieldWriter {
     const TexelGrid& grid = grid_of(*c_.input, group.variant, group.lod);
     const TexelPrelight& p = light(group.variant, group.lod);
     const MediaBlock block = media_block(grid, group.folded);
-    const std::string name = (Text() << (group.folded ? "F" : "H") << group.variant << "L" << group.lod).str();
+    const std::string name =
+        (Text() << (group.folded ? "F" : "H") << group.variant << "L" << group.lod).str();
     std::array<std::vector<const Stand*>, 8> by_orientation;
     for (const Stand* s : members) by_orientation[std::size_t(s->orientation())].push_back(s);
     MediaNames names;
@@ -84,7 +89,8 @@ class FieldWriter {
       // One shading serves all texels that stand alike: for the mean direction to the eye.
       glm::dvec3 to_eye(0.0);
       for (const Stand* s : by_orientation[o]) to_eye += direction_to_eye(s->at) / s->distance_m;
-      const TexelPrelight::Shading shading = shade(by_orientation[o].front()->at, group.lod, glm::normalize(to_eye));
+      const TexelPrelight::Shading shading =
+          shade(by_orientation[o].front()->at, group.lod, glm::normalize(to_eye));
       MediaSamples samples(block);
       add_texel(samples, block, grid, p, shading.radiance, group.folded);
       if (pieces.empty()) {
@@ -94,17 +100,20 @@ class FieldWriter {
       }
       declare_emission(declarations_, c_, block, samples, (Text() << name << "o" << o).str(), names);
       for (const Stand* s : by_orientation[o])
-        boxes_ << boxes_text(c_, block, pieces, box_overlap(s->at.cell_i, s->at.cell_j), names, p.per_density(),
-                             slope_factor(smoothed(plan_, s->at), to_sun_, shading), instance_matrix(s->at, c_.input->tile_m, c_.unit));
+        boxes_ << boxes_text(c_, block, pieces, box_overlap(s->at.cell_i, s->at.cell_j), names,
+                             p.per_density(), slope_factor(smoothed(plan_, s->at), to_sun_, shading),
+                             instance_matrix(s->at, c_.input->tile_m, c_.unit));
     }
   }
 
   glm::dvec3 direction_to_eye(const TexelInstance& t) const {
     const double half = c_.input->tile_m / 2;
-    return glm::normalize(c_.input->still.camera.position_m - (t.origin_m + glm::dvec3(half, half, half / 2)));
+    return glm::normalize(c_.input->still.camera.position_m -
+                          (t.origin_m + glm::dvec3(half, half, half / 2)));
   }
 
-  /// Shading of one instance as its neighbours' cells at this LOD see it, kept until all near cells are written.
+  /// Shading of one instance as its neighbours' cells at this LOD see it, kept until all near cells are
+  /// written.
   const TexelPrelight::Shading& shading_of(const TexelInstance& t, int lod) {
     auto& s = shadings_[{t.cell_i, t.cell_j, lod}];
     if (!s) s = std::make_unique<TexelPrelight::Shading>(shade(t, lod, direction_to_eye(t)));
@@ -135,15 +144,16 @@ class FieldWriter {
     upright.quarter_turns = 0;
     upright.mirrored = false;
     upright.height_scale = 1;
-    boxes_ << boxes_text(c_, cell.block, pieces, box_overlap(stand.at.cell_i, stand.at.cell_j), names, own.per_density(),
-                         glm::dvec3(1.0), instance_matrix(upright, c_.input->tile_m, c_.unit));
+    boxes_ << boxes_text(c_, cell.block, pieces, box_overlap(stand.at.cell_i, stand.at.cell_j), names,
+                         own.per_density(), glm::dvec3(1.0),
+                         instance_matrix(upright, c_.input->tile_m, c_.unit));
   }
 
   const SceneContext& c_;
   const StandPlan& plan_;
   glm::dvec3 to_sun_;
-  std::map<std::pair<int, int>, std::unique_ptr<TexelPrelight>> lights_;                       // variant, LOD
-  std::map<std::array<int, 3>, std::unique_ptr<TexelPrelight::Shading>> shadings_;             // cell, LOD
+  std::map<std::pair<int, int>, std::unique_ptr<TexelPrelight>> lights_;            // variant, LOD
+  std::map<std::array<int, 3>, std::unique_ptr<TexelPrelight::Shading>> shadings_;  // cell, LOD
   int near_count_ = 0;
   Text declarations_, boxes_;
   GroundLight ground_;
@@ -157,8 +167,9 @@ std::filesystem::path write_texel_field(const SceneContext& c, const Progress& p
   w.write(progress);
   const Still& still = c.input->still;
   Text t;
-  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, true}, c.stem) << atmosphere_text(c)
-    << quality_text() << terrain_text(c, w.ground(), false) << w.declarations() << w.boxes();
+  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, true}, c.stem)
+    << atmosphere_text(c) << quality_text() << terrain_text(c, w.ground(), false) << w.declarations()
+    << w.boxes();
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());
   return path;

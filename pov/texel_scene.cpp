@@ -28,7 +28,8 @@ const TexelGrid& grid_of(const SceneInput& input, int variant, int lod) {
 }
 
 glm::dvec3 slope_factor(const TexelInstance& t, const glm::dvec3& to_sun, const TexelPrelight::Shading& s) {
-  const double facing = std::clamp((to_sun.z - t.slope_x * to_sun.x - t.slope_y * to_sun.y) / to_sun.z, 0.0, 2.2);
+  const double facing =
+      std::clamp((to_sun.z - t.slope_x * to_sun.x - t.slope_y * to_sun.y) / to_sun.z, 0.0, 2.2);
   const double beam = t.sun_visibility * (0.35 + 0.65 * facing);
   const glm::dvec3 all = s.mean_sun + s.mean_rest;
   glm::dvec3 f(1.0);
@@ -52,8 +53,8 @@ std::filesystem::path write_texel_alone(const SceneContext& c, const Progress& p
   declare_emission(declarations, c, block, samples, "A", names);
   const Still& still = c.input->still;
   Text t;
-  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, false}, c.stem) << atmosphere_text(c)
-    << quality_text() << studio_text(c, light, true) << declarations.str()
+  t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, false}, c.stem)
+    << atmosphere_text(c) << quality_text() << studio_text(c, light, true) << declarations.str()
     << boxes_text(c, block, pieces, box_overlap(0, 0), names, light.per_density(), glm::dvec3(1.0), "");
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());

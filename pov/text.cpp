@@ -1,7 +1,7 @@
 #include "pov/text.hpp"
 
-#include <charconv>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -17,7 +17,9 @@ Text& Text::operator<<(double value) {
   return *this;
 }
 
-Text& Text::operator<<(const glm::dvec3& v) { return *this << "<" << v.x << "," << v.y << "," << v.z << ">"; }
+Text& Text::operator<<(const glm::dvec3& v) {
+  return *this << "<" << v.x << "," << v.y << "," << v.z << ">";
+}
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path temporary = path;

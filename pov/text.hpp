@@ -1,5 +1,5 @@
-// Small tools of the writers in this folder: numbers as text (locale-free), files written under a temporary name
-// and renamed when whole, and the one place where coordinates are flipped for POV-Ray.
+// Small tools of the writers in this folder: numbers as text (locale-free), files written under a temporary
+// name and renamed when whole, and the one place where coordinates are flipped for POV-Ray.
 #pragma once
 #include <concepts>
 #include <filesystem>
@@ -30,7 +30,9 @@ class Text {
 };
 
 /// POV-Ray is left-handed with y up: (x, y, z) -> (x, z, y). `unit` is POV-Ray units per metre.
-inline glm::dvec3 flip(const glm::dvec3& p, double unit = 1.0) { return {p.x * unit, p.z * unit, p.y * unit}; }
+inline glm::dvec3 flip(const glm::dvec3& p, double unit = 1.0) {
+  return {p.x * unit, p.z * unit, p.y * unit};
+}
 
 /// Writes a file whole or not at all. @throws IoFailure naming the file.
 void write_file(const std::filesystem::path& path, std::string_view bytes);

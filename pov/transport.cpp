@@ -10,10 +10,12 @@
 namespace witherfield::pov {
 namespace {
 
-int wrap(int i, int n) { return ((i % n) + n) % n; }
+int wrap(int i, int n) {
+  return ((i % n) + n) % n;
+}
 
-/// Shift of a layer by a constant fraction of a voxel: four cubic Lagrange weights, so that a hundred shifts in a row
-/// blur far less than linear interpolation would.
+/// Shift of a layer by a constant fraction of a voxel: four cubic Lagrange weights, so that a hundred shifts
+/// in a row blur far less than linear interpolation would.
 struct Shift {
   int whole;
   std::array<float, 4> weight;
@@ -55,13 +57,14 @@ struct Layer {
         std::array<const float*, 4> in;
         for (int a = 0; a < 4; ++a) {
           const int j = int(y) + sy.whole + a - 1;
-          in[std::size_t(a)] = periodic ? half.data() + std::size_t(wrap(j, ny)) * nx
-                               : (j >= 0 && j < ny ? half.data() + std::size_t(j) * nx : zero.data());
+          in[std::size_t(a)] = periodic
+                                   ? half.data() + std::size_t(wrap(j, ny)) * nx
+                                   : (j >= 0 && j < ny ? half.data() + std::size_t(j) * nx : zero.data());
         }
         float* out = value.data() + y * std::size_t(nx);
         for (int x = 0; x < nx; ++x)
-          out[x] = std::max(0.0f, sy.weight[0] * in[0][x] + sy.weight[1] * in[1][x] + sy.weight[2] * in[2][x] +
-                                      sy.weight[3] * in[3][x]);
+          out[x] = std::max(0.0f, sy.weight[0] * in[0][x] + sy.weight[1] * in[1][x] +
+                                      sy.weight[2] * in[2][x] + sy.weight[3] * in[3][x]);
       }
     });
   }
@@ -118,14 +121,21 @@ double ray_start_m(double blade_width_m, double spacing_m) {
 }
 
 OpticalDepth::OpticalDepth(const DenseDensity& block, const glm::dvec3& to_light, double per_density)
-    : nx_(block.nx), ny_(block.ny), nz_(block.nz), periodic_(block.periodic), origin_m_(block.origin_m),
-      direction_(to_light), spacing_m_(block.spacing_m), depth_(block.rho.size()) {
+    : nx_(block.nx),
+      ny_(block.ny),
+      nz_(block.nz),
+      periodic_(block.periodic),
+      origin_m_(block.origin_m),
+      direction_(to_light),
+      spacing_m_(block.spacing_m),
+      depth_(block.rho.size()) {
   sweep(block, per_density);
 }
 
 void OpticalDepth::sweep(const DenseDensity& block, double per_density) {
   const double dx = direction_.x / direction_.z, dy = direction_.y / direction_.z;
-  const int steps = std::max(1, int(std::ceil(std::max(std::abs(dx), std::abs(dy)))));  // at most a voxel sideways
+  const int steps =
+      std::max(1, int(std::ceil(std::max(std::abs(dx), std::abs(dy)))));  // at most a voxel sideways
   const float part = float(per_density / direction_.z / steps);
   const Shift sx(dx / steps), sy(dy / steps);
   const std::size_t n = std::size_t(nx_) * ny_;
@@ -134,7 +144,8 @@ void OpticalDepth::sweep(const DenseDensity& block, double per_density) {
     const float* upper = k + 1 < nz_ ? block.rho.data() + (k + 1) * n : nullptr;
     const float* lower = block.rho.data() + k * n;
     for (int s = 0; s < steps; ++s) {
-      // Trapezium over the part of the way from height f0 to f1 (0 = upper layer, 1 = lower), density linear in height.
+      // Trapezium over the part of the way from height f0 to f1 (0 = upper layer, 1 = lower), density linear
+      // in height.
       const float f0 = float(s) / float(steps), f1 = float(s + 1) / float(steps);
       layer.add(upper, part / 2 * (1 - f0), lower, part / 2 * f0);
       layer.shift(sx, sy);
@@ -159,7 +170,8 @@ double OpticalDepth::sample(double x, double y, double z) const {
       a = std::clamp(a, 0, nx_ - 1);
       b = std::clamp(b, 0, ny_ - 1);
     }
-    const double w = ((c & 1) ? f[0] : 1 - f[0]) * (((c >> 1) & 1) ? f[1] : 1 - f[1]) * ((c >> 2) ? f[2] : 1 - f[2]);
+    const double w =
+        ((c & 1) ? f[0] : 1 - f[0]) * (((c >> 1) & 1) ? f[1] : 1 - f[1]) * ((c >> 2) ? f[2] : 1 - f[2]);
     sum += w * depth_[(std::size_t(h) * ny_ + b) * nx_ + a];
   }
   return sum;
@@ -192,7 +204,8 @@ const std::vector<DomeSample>& sky_dome() {
       const double el = elevation_deg * std::numbers::pi / 180;
       for (int i = 0; i < count; ++i) {
         const double az = 2 * std::numbers::pi * (i + offset) / count;
-        d.push_back({{std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el)}, weight / count});
+        d.push_back(
+            {{std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el)}, weight / count});
       }
     };
     ring(4, 55, 0.38, 0.5);

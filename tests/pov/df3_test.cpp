@@ -12,7 +12,9 @@
 namespace witherfield::pov {
 namespace {
 
-unsigned byte(const std::string& s, std::size_t i) { return static_cast<unsigned char>(s.at(i)); }
+unsigned byte(const std::string& s, std::size_t i) {
+  return static_cast<unsigned char>(s.at(i));
+}
 
 TEST(Df3, HeaderIsBigEndianWithOurYAndZExchanged) {
   const std::vector<float> values(std::size_t(300) * 2 * 5, 0.0f);
@@ -74,7 +76,8 @@ TEST(MediaBlock, KeepsAllDensityFoldedAndUnfolded) {
       for (int y = 0; y < b.ny; ++y) {
         for (int x = 1; x + 1 < b.nx; ++x) inside += y > 0 && y + 1 < b.ny ? at(x, y, z) : 0;
         for (int x = 0; x < b.nx; ++x) top += z + 1 == b.nz ? at(x, y, z) : 0;
-        // Folded: the sides repeat the opposite ones, so that tiles meet without a seam. Else nothing is there.
+        // Folded: the sides repeat the opposite ones, so that tiles meet without a seam. Else nothing is
+        // there.
         EXPECT_EQ(at(0, y, z), folded ? at(b.nx - 2, y, z) : 0.0f);
         EXPECT_EQ(at(b.nx - 1, y, z), folded ? at(1, y, z) : 0.0f);
       }
@@ -101,12 +104,13 @@ TEST(MediaPieces, CoverAllGrassWithinTheLimitOfIntervals) {
   EXPECT_LT(volume, 0.8 * all.x * all.y * all.z);  // empty air is left out
   for (std::size_t i = 0; i < s.density.size(); ++i) {
     if (!(s.density[i] > 0)) continue;
-    const int x = int(i % std::size_t(b.nx)), y = int(i / std::size_t(b.nx) % std::size_t(b.ny)), z = int(i / (std::size_t(b.nx) * b.ny));
+    const int x = int(i % std::size_t(b.nx)), y = int(i / std::size_t(b.nx) % std::size_t(b.ny)),
+              z = int(i / (std::size_t(b.nx) * b.ny));
     const glm::dvec3 p = b.first_m + glm::dvec3(x, y, z) * b.spacing_m;
     int holders = 0;
     for (const MediaPiece& m : pieces)
-      holders += p.x >= m.lo_m.x - 1e-9 && p.x < m.hi_m.x - 1e-9 && p.y >= m.lo_m.y - 1e-9 && p.y < m.hi_m.y - 1e-9 &&
-                 p.z >= m.lo_m.z - 1e-9 && p.z < m.hi_m.z - 1e-9;
+      holders += p.x >= m.lo_m.x - 1e-9 && p.x < m.hi_m.x - 1e-9 && p.y >= m.lo_m.y - 1e-9 &&
+                 p.y < m.hi_m.y - 1e-9 && p.z >= m.lo_m.z - 1e-9 && p.z < m.hi_m.z - 1e-9;
     ASSERT_EQ(holders, 1) << x << " " << y << " " << z;
   }
 }

@@ -27,7 +27,8 @@ BladeRibbons blades(int count, double tile_m, double dry, std::uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     Random r(seed, Stream::test, std::uint64_t(i));
     const double own = std::clamp(dry * 1.3 - 0.15 + 0.35 * (r.uniform() - 0.5), 0.0, 1.0);
-    const double length = r.uniform(0.07, 0.15) * (1 - 0.05 * own), width = r.uniform(0.0025, 0.0045) * (1 - 0.25 * own);
+    const double length = r.uniform(0.07, 0.15) * (1 - 0.05 * own),
+                 width = r.uniform(0.0025, 0.0045) * (1 - 0.25 * own);
     const double azimuth = r.uniform(0, 6.2831853), twist = 0.6 * r.normal();
     const double lean = 0.05 + 0.2 * std::abs(r.normal()), u = r.uniform();
     const double curl = 0.2 + 0.9 * u * u + own * r.uniform(0.5, 1.5), fold = r.uniform(0.2, 0.55);
@@ -72,14 +73,16 @@ TexelGrid texel(const BladeRibbons& b, const GridShape& s) {
     for (int k = 0; k + 1 < b.nodes_per_blade; ++k) {
       const std::size_t i = std::size_t(blade) * b.nodes_per_blade + k, j = i + 1;
       const double length = glm::length(b.center_m[j] - b.center_m[i]);
-      const int along = std::max(2, int(length / s.spacing_m * 4)), across = std::max(2, int(2 * b.half_width_m[i] / s.spacing_m * 4));
+      const int along = std::max(2, int(length / s.spacing_m * 4)),
+                across = std::max(2, int(2 * b.half_width_m[i] / s.spacing_m * 4));
       for (int u = 0; u < along; ++u)
         for (int v = 0; v < across; ++v) {
           const double f = (u + 0.5) / along, x = 2 * (v + 0.5) / across - 1;
           const double half = b.half_width_m[i] * (1 - f) + b.half_width_m[j] * f;
           const glm::dvec3 side(b.side[i]), t(b.tangent[i]), face = glm::cross(side, t);
           const double c = std::cos(b.fold_rad[i]), n = std::sin(b.fold_rad[i]);
-          const glm::dvec3 p = glm::mix(b.center_m[i], b.center_m[j], f) + half * (x * c * side + std::abs(x) * n * face);
+          const glm::dvec3 p =
+              glm::mix(b.center_m[i], b.center_m[j], f) + half * (x * c * side + std::abs(x) * n * face);
           const glm::ivec3 q((p - s.origin_m) / s.spacing_m);
           if (q.x < 0 || q.y < 0 || q.x >= s.nx || q.y >= s.ny || q.z < 0 || q.z >= s.nz) continue;
           const double area = length / along * 2 * half / across / (s.spacing_m * s.spacing_m);
@@ -95,17 +98,21 @@ TexelGrid texel(const BladeRibbons& b, const GridShape& s) {
   std::map<int, int> cells;
   TexelGrid g(s);
   for (const auto& [index, sum] : voxels) {
-    const int x = int(index % s.nx), y = int(index / s.nx % s.ny), z = int(index / (std::int64_t(s.nx) * s.ny));
+    const int x = int(index % s.nx), y = int(index / s.nx % s.ny),
+              z = int(index / (std::int64_t(s.nx) * s.ny));
     cells[((z / 4) * g.bricks_y() + y / 4) * g.bricks_x() + x / 4] = 0;
   }
   std::vector<int> list;
   for (const auto& c : cells) list.push_back(c.first);
   g.reset_bricks(list);
   for (const auto& [index, sum] : voxels) {
-    const int x = int(index % s.nx), y = int(index / s.nx % s.ny), z = int(index / (std::int64_t(s.nx) * s.ny));
-    const int brick = g.brick_at(((z / 4) * g.bricks_y() + y / 4) * g.bricks_x() + x / 4), v = ((z % 4) * 4 + y % 4) * 4 + x % 4;
+    const int x = int(index % s.nx), y = int(index / s.nx % s.ny),
+              z = int(index / (std::int64_t(s.nx) * s.ny));
+    const int brick = g.brick_at(((z / 4) * g.bricks_y() + y / 4) * g.bricks_x() + x / 4),
+              v = ((z % 4) * 4 + y % 4) * 4 + x % 4;
     const auto put = [&](C c, double value) { g.channel(brick, c)[v] = float(value); };
-    const glm::dvec3 n = glm::normalize(sum.normal + glm::dvec3(1e-12)), t = glm::normalize(sum.tangent + glm::dvec3(1e-12));
+    const glm::dvec3 n = glm::normalize(sum.normal + glm::dvec3(1e-12)),
+                     t = glm::normalize(sum.tangent + glm::dvec3(1e-12));
     put(C::density, sum.density);
     put(C::chlorophyll_ug_cm2, sum.chlorophyll / sum.density);
     put(C::specular, 0.04);
@@ -139,11 +146,13 @@ TexelGrid turned(const TexelGrid& g, int quarter_turns, bool mirrored) {
           x = s.nx - 1 - y;
           y = from;
         }
-        const int brick = out.brick_at(((k / 4) * g.bricks_y() + y / 4) * g.bricks_x() + x / 4), v = ((k % 4) * 4 + y % 4) * 4 + x % 4;
+        const int brick = out.brick_at(((k / 4) * g.bricks_y() + y / 4) * g.bricks_x() + x / 4),
+                  v = ((k % 4) * 4 + y % 4) * 4 + x % 4;
         for (int c = 0; c < kTexelChannels; ++c) out.channel(brick, C(c))[v] = g.at(i, j, k, C(c));
         for (C first : {C::normal_x, C::tangent_x}) {
           const int c = int(first);
-          const glm::vec3 d = direction({g.at(i, j, k, first), g.at(i, j, k, C(c + 1)), g.at(i, j, k, C(c + 2))});
+          const glm::vec3 d =
+              direction({g.at(i, j, k, first), g.at(i, j, k, C(c + 1)), g.at(i, j, k, C(c + 2))});
           for (int a = 0; a < 3; ++a) out.channel(brick, C(c + a))[v] = d[a];
         }
       }

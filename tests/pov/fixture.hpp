@@ -1,4 +1,5 @@
-// Grass for the tests of pov/, free of the simulators: bent blades with plausible colours, and their texel by dense sampling.
+// Grass for the tests of pov/, free of the simulators: bent blades with plausible colours, and their texel by
+// dense sampling.
 #pragma once
 #include <cstdint>
 
@@ -15,7 +16,8 @@ BladeRibbons blades(int count, double tile_m, double dry, std::uint64_t seed);
 GridShape shape(double tile_m, int resolution, int margin);
 TexelGrid texel(const BladeRibbons& blades, const GridShape& shape);
 
-/// The same texel turned by quarter turns counter-clockwise (after mirroring x when asked). Square grids only.
+/// The same texel turned by quarter turns counter-clockwise (after mirroring x when asked). Square grids
+/// only.
 TexelGrid turned(const TexelGrid& grid, int quarter_turns, bool mirrored);
 
 /// Every voxel filled evenly with `density`.

@@ -23,7 +23,8 @@ struct TemporaryFolder {
 };
 
 TEST(Hdr, ReadsARunLengthFileMadeByHand) {
-  // 8 x 1: red mantissa 128 eight times (a run), green 1..8 (dump), blue 0, exponent 129 -> scale 2^(129-136).
+  // 8 x 1: red mantissa 128 eight times (a run), green 1..8 (dump), blue 0, exponent 129 -> scale
+  // 2^(129-136).
   std::string file = "#?RADIANCE\nSOFTWARE=hand\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
   file += std::string("\x02\x02\x00\x08", 4);
   file += std::string("\x88\x80", 2);
@@ -44,7 +45,9 @@ TEST(Hdr, RoundTripsWithinItsPrecision) {
     image.width = width;
     image.height = 7;
     for (int i = 0; i < width * 7; ++i)
-      image.pixel.push_back(i % 9 < 4 ? glm::vec3(0.25f, 0.5f, 1.0f) : glm::vec3(float(std::exp(0.37 * (i % 31) - 5)), 0.1f * float(i % 3), 3.0f));
+      image.pixel.push_back(i % 9 < 4
+                                ? glm::vec3(0.25f, 0.5f, 1.0f)
+                                : glm::vec3(float(std::exp(0.37 * (i % 31) - 5)), 0.1f * float(i % 3), 3.0f));
     const HdrImage back = decode_hdr(encode_hdr(image), "round trip");
     ASSERT_EQ(back.pixel.size(), image.pixel.size());
     for (std::size_t i = 0; i < image.pixel.size(); ++i) {
@@ -80,6 +83,20 @@ TEST(ToneMap, GreysStayGreyAndBrighterIsBrighter) {
 TEST(ToneMap, SharpeningKeepsFlatPicturesFlat) {
   HdrImage flat{12, 9, std::vector<glm::vec3>(108, glm::vec3(0.2f, 0.3f, 0.1f))};
   EXPECT_EQ(develop(flat, 1.0, 0.8), develop(flat, 1.0, 0.0));
+}
+
+TEST(ToneMap, MendsLonePixelsAndNothingElse) {
+  HdrImage image{20, 10, {}};
+  for (int i = 0; i < 200; ++i) image.pixel.push_back(glm::vec3(0.2f + 0.01f * float(i % 20)));  // a ramp
+  const HdrImage ramp = image;
+  EXPECT_EQ(mend_specks(image), 0);
+  image.pixel[5 * 20 + 7] = glm::vec3(3.0f);
+  image.pixel[3 * 20 + 14] = glm::vec3(0.0f);
+  EXPECT_EQ(mend_specks(image), 2);
+  for (std::size_t i = 0; i < ramp.pixel.size(); ++i)
+    EXPECT_NEAR(image.pixel[i].x, ramp.pixel[i].x, 0.02f) << i;
+  image.pixel[5 * 20 + 7] = image.pixel[5 * 20 + 8] = glm::vec3(3.0f);  // two side by side are a thing
+  EXPECT_EQ(mend_specks(image), 0);
 }
 
 TEST(Png, WritesTextAndLeavesNothingHalfWritten) {

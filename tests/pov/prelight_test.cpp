@@ -15,7 +15,9 @@
 namespace witherfield::pov {
 namespace {
 
-glm::dvec3 toward(double azimuth_deg, double elevation_deg) { return Sun{azimuth_deg, elevation_deg, 3}.direction(); }
+glm::dvec3 toward(double azimuth_deg, double elevation_deg) {
+  return Sun{azimuth_deg, elevation_deg, 3}.direction();
+}
 
 TEST(OpticalDepth, NothingInTheWayGivesZero) {
   DenseDensity air;
@@ -47,15 +49,17 @@ TEST(OpticalDepth, PeriodicTileRepeats) {
 }
 
 TEST(OpticalDepth, LoneTexelThrowsItsShadowAwayFromTheSun) {
-  const DenseDensity block = densify(fixture::uniform_slab(fixture::shape(0.2, 32, 0), 16, 1.0f), false);  // 0.1 m high
-  const OpticalDepth depth(block, toward(0, 45), 1.0);  // sun in the east
-  EXPECT_GT(depth.at({-0.05, 0.1, 0.0}), 1.0);          // west of it: shadow, 0.1 m long
+  const DenseDensity block =
+      densify(fixture::uniform_slab(fixture::shape(0.2, 32, 0), 16, 1.0f), false);  // 0.1 m high
+  const OpticalDepth depth(block, toward(0, 45), 1.0);                              // sun in the east
+  EXPECT_GT(depth.at({-0.05, 0.1, 0.0}), 1.0);  // west of it: shadow, 0.1 m long
   EXPECT_EQ(depth.at({-0.12, 0.1, 0.0}), 0.0);
-  EXPECT_EQ(depth.at({0.25, 0.1, 0.0}), 0.0);           // east of it: sun
+  EXPECT_EQ(depth.at({0.25, 0.1, 0.0}), 0.0);  // east of it: sun
 }
 
 TEST(OpticalDepth, SameBitsForAnyThreadCount) {
-  const DenseDensity block = densify(fixture::texel(fixture::blades(60, 0.2, 0.2, 2), fixture::shape(0.2, 64, 0)), true);
+  const DenseDensity block =
+      densify(fixture::texel(fixture::blades(60, 0.2, 0.2, 2), fixture::shape(0.2, 64, 0)), true);
   const auto probe = [&] {
     const OpticalDepth depth(block, toward(130, 25), 1.3);
     double sum = 0;
@@ -96,7 +100,8 @@ TEST(Prelight, SkyIsWholeAboveTheGrassAndLessBelow) {
   const auto sky = sky_visibility(light.block(), light.per_density(), points, 0);
   EXPECT_NEAR(sky[0], 1.0, 1e-6);
   EXPECT_LT(sky[1], 0.6);
-  EXPECT_GT(light.ground_sun(toward(20, 70)), light.ground_sun(toward(20, 20)));  // a low sun goes a longer way
+  EXPECT_GT(light.ground_sun(toward(20, 70)),
+            light.ground_sun(toward(20, 20)));  // a low sun goes a longer way
 }
 
 TEST(Prelight, EnergyStaysBelowTheUnshadedLeaf) {
@@ -105,8 +110,9 @@ TEST(Prelight, EnergyStaysBelowTheUnshadedLeaf) {
   const Illumination sun{toward(200, 35), glm::dvec3(6.0), glm::dvec3(1.0)};
   const auto shading = light.shade(sun, {0.1, -1, 0.3});
   const auto leaf = leaf_optics(glm::vec3(0.31f, 0.24f, 0.126f), 0.0);  // the brightest straw there is
-  const glm::vec3 most = (leaf.reflectance + leaf.transmittance) * float(6.0 + 1.0) + glm::vec3(6.0f * 0.04f) +
-                         glm::vec3(scattered_light(sun, light.mean_albedo(), 1)) * (leaf.reflectance + leaf.transmittance);
+  const glm::vec3 most =
+      (leaf.reflectance + leaf.transmittance) * float(6.0 + 1.0) + glm::vec3(6.0f * 0.04f) +
+      glm::vec3(scattered_light(sun, light.mean_albedo(), 1)) * (leaf.reflectance + leaf.transmittance);
   for (const glm::vec3& r : shading.radiance)
     for (int k = 0; k < 3; ++k) {
       ASSERT_GE(r[k], 0.0f);
@@ -157,7 +163,8 @@ TEST(Prelight, ToLocalUndoesToWorld) {
       t.quarter_turns = q;
       t.mirrored = mirrored;
       const glm::dvec3 d{0.3, -0.2, 0.7};
-      const glm::dvec3 world = to_world(t, 1.0, d + glm::dvec3(0.5, 0.5, 0)) - to_world(t, 1.0, {0.5, 0.5, 0});
+      const glm::dvec3 world =
+          to_world(t, 1.0, d + glm::dvec3(0.5, 0.5, 0)) - to_world(t, 1.0, {0.5, 0.5, 0});
       EXPECT_LT(glm::length(to_local_direction(t, world) - d), 1e-12) << q << mirrored;
     }
 }
@@ -179,7 +186,8 @@ TEST(LeafOptics, ConservesEnergyAndIsYellowGreenInTransmission) {
 
 TEST(Sky, BrightAndWhiteNearTheSunBlueOppositeAndSunReddensWhenLow) {
   const Sun sun{140, 40, 3};
-  const glm::dvec3 near = preetham_radiance(sun, toward(140, 50)), far = preetham_radiance(sun, toward(320, 60));
+  const glm::dvec3 near = preetham_radiance(sun, toward(140, 50)),
+                   far = preetham_radiance(sun, toward(320, 60));
   EXPECT_GT(near.y, far.y);
   EXPECT_GT(far.z / far.x, near.z / near.x);
   const Daylight noon = make_daylight({140, 60, 3}), evening = make_daylight({140, 8, 3});

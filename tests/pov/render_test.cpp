@@ -1,10 +1,11 @@
 // What povray makes of the scenes: they parse, east is right, the two looks agree.
+#include "pov/render.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "pov/hdr.hpp"
-#include "pov/render.hpp"
 #include "pov/run_povray.hpp"
 #include "pov/scene_parts.hpp"
 #include "pov/text.hpp"
@@ -16,7 +17,10 @@ namespace {
 
 struct RenderTest : SceneTest {
   HdrImage raw_render(const fs::path& scene, int width, int height) {
-    run_povray(scene.parent_path(), {"+I" + scene.filename().string(), "+Oraw.hdr", "+FH", "-D", "-P", "-A", "+W" + std::to_string(width), "+H" + std::to_string(height)}, {});
+    run_povray(scene.parent_path(),
+               {"+I" + scene.filename().string(), "+Oraw.hdr", "+FH", "-D", "-P", "-A",
+                "+W" + std::to_string(width), "+H" + std::to_string(height)},
+               {});
     return decode_hdr(read_file(scene.parent_path() / "raw.hdr"), "raw");
   }
 };
@@ -28,8 +32,8 @@ TEST_F(RenderTest, BothLooksOfATexelAndOfAField) {
       double last = 0;
       RenderOptions options;
       options.quality = Quality::draft;
-      const RenderResult r = render_scene(scene, folder / "images" / (scene.stem().string() + ".png"), options,
-                                          [&](std::string_view, double f) { last = f; });
+      const RenderResult r = render_scene(scene, folder / "images" / (scene.stem().string() + ".png"),
+                                          options, [&](std::string_view, double f) { last = f; });
       EXPECT_TRUE(fs::exists(r.png));
       EXPECT_GT(r.seconds, 0);
       EXPECT_LE(last, 1.0);
@@ -43,7 +47,8 @@ TEST_F(RenderTest, BothLooksOfATexelAndOfAField) {
 
 TEST_F(RenderTest, FailureShowsPovraysMessagesAndLeavesNothing) {
   fs::create_directories(folder);
-  write_file(folder / "bad.pov", head_text({16, 9, 1, "texel", false, true}, "bad") + "#version 3.7;\nnonsense_here{}\n");
+  write_file(folder / "bad.pov",
+             head_text({16, 9, 1, "texel", false, true}, "bad") + "#version 3.7;\nnonsense_here{}\n");
   try {
     render_scene(folder / "bad.pov", folder / "bad.png", {});
     FAIL() << "must throw";

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 struct SceneTest : testing::Test {
   fs::path folder = fs::temp_directory_path() / ("witherfield_scene_" + std::to_string(getpid()));
   BladeRibbons blades = fixture::blades(40, 0.2, 0.3, 1);
-  TexelGrid fine = fixture::texel(blades, fixture::shape(0.2, 64, 12)), coarse = fixture::texel(blades, fixture::shape(0.2, 32, 8));
+  TexelGrid fine = fixture::texel(blades, fixture::shape(0.2, 64, 12)),
+            coarse = fixture::texel(blades, fixture::shape(0.2, 32, 8));
   Placement placement = fixture::level_placement(0.2, 5);
   SceneInput input;
 

@@ -37,7 +37,8 @@ TEST_F(SceneTest, FilesStayInTheFolderAndNoneIsPartial) {
     EXPECT_TRUE(e.path().filename().string().starts_with("small_")) << e.path();
     EXPECT_NE(e.path().extension(), ".part");
   }
-  for (const fs::path& scene : scenes) EXPECT_EQ(read_file(scene).find('/' + std::string("tmp")), std::string::npos);
+  for (const fs::path& scene : scenes)
+    EXPECT_EQ(read_file(scene).find('/' + std::string("tmp")), std::string::npos);
 }
 
 TEST_F(SceneTest, UnknownLookAndMissingDataAreNamed) {
@@ -72,9 +73,12 @@ TEST(BoxOverlap, NeighboursNeverShareAFaceNorLeaveAGap) {
       std::set<double> seen;
       for (int b = 0; b < 2; ++b)
         for (int a = 0; a < 2; ++a) seen.insert(box_overlap(i + a, j + b));
-      EXPECT_EQ(seen.size(), 4u);  // any 2 x 2 block: all different, so tops and bottoms of neighbours differ too
-      // The walls of two neighbours cross by more than what POV-Ray takes for one and the same hit (1e-4 units).
-      const double right = kUnitsPerTile * (1 + box_overlap(i, j)), left = kUnitsPerTile * (1 - box_overlap(i + 1, j));
+      EXPECT_EQ(seen.size(),
+                4u);  // any 2 x 2 block: all different, so tops and bottoms of neighbours differ too
+      // The walls of two neighbours cross by more than what POV-Ray takes for one and the same hit (1e-4
+      // units).
+      const double right = kUnitsPerTile * (1 + box_overlap(i, j)),
+                   left = kUnitsPerTile * (1 - box_overlap(i + 1, j));
       EXPECT_GT(right - left, 5e-4);
     }
 }
@@ -126,7 +130,8 @@ TEST_F(SceneTest, NearCellHoldsWhatLeansIn) {
     for (int y = 1; y + 1 < cell.block.ny; ++y)
       for (int x = 1; x + 1 < cell.block.nx; ++x)
         inside += cell.samples.density[(std::size_t(z) * cell.block.ny + y) * cell.block.nx + x];
-  // With all parts unturned the cell would hold exactly one texel; turned ones lean in about as much as leans out.
+  // With all parts unturned the cell would hold exactly one texel; turned ones lean in about as much as leans
+  // out.
   EXPECT_NEAR(inside / fine.total_density(), 1.0, 0.2);
   for (CellPart& part : parts) part.at = &p.instances[4];
   for (std::size_t k = 0; k < 9; ++k) {
