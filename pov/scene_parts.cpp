@@ -156,7 +156,7 @@ void append_ring(Text& t, const SceneContext& c) {
 
 std::string terrain_text(const SceneContext& c, const GroundLight& light, bool shadows) {
   const double tile = kUnitsPerTile, share = shadows ? 1.0 : light.sun;
-  // Black loam (facts b: sRGB 80, 61, 38) with litter of the grass itself on it.
+  // Black loam (ECOSTRESS library: sRGB 80, 61, 38) with litter of the grass itself on it.
   const glm::dvec3 soil{0.0802, 0.0467, 0.0194};
   const glm::dvec3 floor = 0.55 * soil + 0.45 * light.litter_rgb;
   const glm::dvec3 around = c.day->sky_rgb * light.sky + light.scattered_rgb;

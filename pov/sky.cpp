@@ -121,10 +121,10 @@ Daylight make_daylight(const Sun& sun) {
   horizon *= scale * dim / kWidth;
   // Preetham's horizon is purplish: real haze is close to neutral, slightly blue.
   const double haze = luminance(horizon);
-  day.horizon_rgb = glm::dvec3(0.5) * horizon + 0.5 * haze * glm::dvec3(0.93, 1.0, 1.10);
+  day.horizon_rgb = glm::dvec3(0.25) * horizon + 0.75 * haze * glm::dvec3(0.89, 1.0, 1.12);
   for (int j = 0; j < kHeight; ++j) {
     const double elevation = (0.5 - (j + 0.5) / kHeight) * kPi;
-    const float blend = float(std::exp(-std::abs(elevation) / 0.09));
+    const float blend = float(std::exp(-std::abs(elevation) / 0.22));
     for (int i = 0; i < kWidth; ++i) {
       glm::vec3& p = day.map.pixel[std::size_t(j) * kWidth + i];
       const glm::dvec3 c = glm::dvec3(p) * (scale * dim);

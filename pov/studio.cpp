@@ -47,7 +47,7 @@ struct Soil {
 /// The heap with crumbs: overlapping rounded grains, many small and few large, each with its own tone; sparse
 /// on the floor.
 Soil make_soil(int pixels) {
-  const glm::vec3 loam(0.052f, 0.034f, 0.020f);  // moist black loam (facts b) is 0.080, 0.047, 0.019
+  const glm::vec3 loam(0.052f, 0.034f, 0.020f);  // moist; black loam (ECOSTRESS) is 0.080, 0.047, 0.019
   Soil soil;
   soil.height.resize(std::size_t(pixels) * pixels);
   soil.albedo.assign(soil.height.size(), loam);

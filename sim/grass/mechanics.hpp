@@ -1,4 +1,4 @@
-// How blades move, shrink and stiffen while they dry (Jiao et al. 2010, sec. 3.1; departures: facts d.3 to d.5).
+// How blades move, shrink and stiffen while they dry (Jiao et al. 2010, sec. 3.1; departures: docs/physics.md).
 #pragma once
 #include <memory>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace witherfield::grass {
 
-/// Turgor pressure in MPa at relative water content w: max(0, -pi0 - eps (1 - w)) (facts d.3).
+/// Turgor pressure in MPa at relative water content w: max(0, -pi0 - eps (1 - w)) (Bartlett et al. 2012).
 double turgor_MPa(const TissueOptions& t, double water);
 /// How freely the shape flows: 0 at full turgor, 1 without, 0 again when dry (the shape is set). Drives creep and the paper's droop.
 double limpness(const TissueOptions& t, double water);

@@ -17,7 +17,7 @@ enum class Motion { rod, paper };           ///< bending rod that keeps its leng
 enum class PigmentModel { kubelka_munk, paper };
 enum class Climate { standard, water_rich, cold };
 
-/// Geometry of the blades of one sample. Defaults: perennial ryegrass (facts d.6).
+/// Geometry of the blades of one sample. Defaults: perennial ryegrass (docs/physics.md).
 struct BladeOptions {
   BladeForm form = BladeForm::ribbon;
   int count = 400;                       ///< blades on the tile, 1..100000
@@ -55,15 +55,15 @@ struct SeasonOptions {
   std::vector<std::pair<double, double>> water_curve;        ///< user key frames (wd, relative water 0..1); empty = climate's
   std::vector<std::pair<double, double>> chlorophyll_curve;  ///< user key frames (wd, fraction 0..1); empty = default
   double onset_mean = 0.5;               ///< wd at which the median blade has lost half its chlorophyll, 0.1..0.9
-  double onset_sd = 0.12;                ///< spread of the onset between blades, 0..0.3 (facts d.1: yellowing is a spread of onsets)
+  double onset_sd = 0.12;                ///< spread of the onset between blades, 0..0.3 (Mattila et al. 2018: yellowing is a spread of onsets)
   double tip_advance = 0.08;             ///< wd by which the tip is ahead of the root, 0..0.3
 };
 
-/// Mechanics and tissue (facts d.4, d.5). Moduli in MPa.
+/// Mechanics and tissue (sources: docs/physics.md). Moduli in MPa.
 struct TissueOptions {
   Motion motion = Motion::rod;
   double vein_fraction = 0.18;           ///< share of the half-width (or the cone's radius) around the midrib that is vein, 0.02..0.9
-  double modulus_vein_fresh_MPa = 500, modulus_vein_dry_MPa = 900;        ///< E_v > E_m (the paper prints the opposite: facts d.5)
+  double modulus_vein_fresh_MPa = 500, modulus_vein_dry_MPa = 900;        ///< E_v > E_m (the paper prints the opposite: docs/physics.md)
   double modulus_mesophyll_fresh_MPa = 10, modulus_mesophyll_dry_MPa = 60;
   double bending_fresh_MPa = 300, bending_limp_MPa = 40, bending_dry_MPa = 600;  ///< whole blade, axial
   double base_to_tip_stiffness = 12;     ///< modulus at the foot over that at the tip, falling exponentially, 1..100 (Balsamo et al. 2006: falls from base to tip)
@@ -73,7 +73,7 @@ struct TissueOptions {
   double dry_mass_fraction = 0.24;       ///< of fresh mass, 0.05..0.9
   double volume_strain_vein = -0.14;     ///< Delta V / V0 when all water is gone, k_v; -0.9..0
   double volume_strain_mesophyll = -0.68;///< k_m; |k_v| < |k_m|
-  double shrink_thickness = -0.55, shrink_width = -0.25, shrink_length = -0.05;  ///< fresh -> dry (facts d.4)
+  double shrink_thickness = -0.55, shrink_width = -0.25, shrink_length = -0.05;  ///< fresh -> dry
   double creep_days = 6;                 ///< relaxation time of a limp blade's shape, 0.1..1000
   double response_days = 1.0;            ///< Kelvin-Voigt time of bending, 0.02..100
   double droop_rate_per_day = 0.09;      ///< the paper's omega (rad/day at the tip of a limp blade), 0..10
@@ -81,7 +81,7 @@ struct TissueOptions {
 
 struct ColourOptions {
   PigmentModel model = PigmentModel::kubelka_munk;
-  double chlorophyll_fresh_ug_cm2 = 43.9;  ///< lawn grass (facts a.4), 1..120
+  double chlorophyll_fresh_ug_cm2 = 43.9;  ///< lawn grass, fitted by PROSPECT, 1..120
   double brightness_sd = 0.10;             ///< blade to blade, relative, 0..0.5
   double specular = 0.04;                  ///< Fresnel-like reflectance of the cuticle, 0..1 (dry: half of it)
 };
@@ -89,7 +89,7 @@ struct ColourOptions {
 /// Texel <-> points (Jiao et al. 2010, sec. 2.3).
 struct PointOptions {
   double proportion = 6;                 ///< points per unit of density, > 0 (the paper's best: 6)
-  double kernel_sigma_voxels = 0.5;      ///< Gaussian weight w_i, 0.3..4 (facts i)
+  double kernel_sigma_voxels = 0.5;      ///< Gaussian weight w_i, 0.3..4
   double merge_distance_voxels = 0.2;    ///< points of one blade and tissue nearer than this are combined; 0 = never; 0..2
 };
 

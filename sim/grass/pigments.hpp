@@ -1,4 +1,4 @@
-// Pigments -> spectrum -> linear sRGB (Jiao et al. 2010, sec. 3.2; facts a and c).
+// Pigments -> spectrum -> linear sRGB (Jiao et al. 2010, sec. 3.2; docs/physics.md).
 #pragma once
 #include <array>
 #include <glm/vec3.hpp>
@@ -18,14 +18,14 @@ using Spectrum = std::array<double, kBands>;
 struct Pigments { double chl_a, chl_b, carotenoid; };
 Pigments paper_pigments(double chlorophyll_fraction);
 
-/// In-vitro absorption spectra, peak 1 (facts a.1), and the spectra used for colour.
+/// In-vitro absorption spectra, peak 1, and the spectra used for colour.
 const Spectrum& absorption_chl_a();
 const Spectrum& absorption_chl_b();
 const Spectrum& absorption_beta_carotene();
 const Spectrum& absorption_chl_in_vivo();   ///< PROSPECT-D kab / its 400..700 nm maximum
 const Spectrum& reflectance_dry_grass();    ///< USGS dry long grass
 
-/// Reflectance by Kubelka-Munk mixing (facts a.5), the default. @pre 0 <= c <= 1.
+/// Reflectance by Kubelka-Munk mixing, the default. @pre 0 <= c <= 1.
 Spectrum reflectance_kubelka_munk(double chlorophyll_fraction);
 /// The paper's subtraction R = L - sum P A, with L = 1 at all wavelengths (equal-energy, so that R is a reflectance), clamped
 /// to [0, 1] (Jiao et al. 2010, sec. 3.2; erratum E0.9: near-white, kept for comparison).

@@ -1,5 +1,5 @@
 // Water and chlorophyll over the season (Jiao et al. 2010, fig. 9; the figure's curves are replaced by the fitted logistic
-// ones of facts d.2, shaped by published senescence data).
+// ones, shaped by published senescence data).
 #pragma once
 #include "sim/core/curve.hpp"
 #include "sim/grass/options.hpp"
@@ -17,7 +17,7 @@ class SeasonCurves {
   double water(double wd) const;                ///< relative water content of the canopy, 0..1
   double chlorophyll(double wd) const;          ///< fraction of the fresh content, canopy mean
   /// One spot of one blade: `onset` is the blade's (Blade::onset), arc 0 root .. 1 tip. The spot lives on the warped
-  /// time spot_wd(wd, onset, arc), and loses its chlorophyll in about a week once its turn comes (facts d.1).
+  /// time spot_wd(wd, onset, arc), and loses its chlorophyll in about a week once its turn comes (Mattila et al. 2018).
   double spot_wd(double wd, double onset, double arc) const;
   double spot_water(double wd, double onset, double arc) const;
   double spot_chlorophyll(double wd, double onset, double arc) const;

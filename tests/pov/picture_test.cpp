@@ -70,7 +70,9 @@ TEST(ToneMap, GreysStayGreyAndBrighterIsBrighter) {
     const glm::dvec3 c = tone_map(glm::dvec3(v));
     EXPECT_NEAR(c.x, c.y, 1e-4) << v;
     EXPECT_NEAR(c.y, c.z, 1e-4) << v;
-    if (before < 0.9999) EXPECT_GE(c.y, before) << v;
+    if (before < 0.9999) {
+      EXPECT_GE(c.y, before) << v;
+    }
     before = c.y;
   }
   EXPECT_LT(tone_map(glm::dvec3(0.0)).y, 1e-3);

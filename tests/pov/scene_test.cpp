@@ -106,8 +106,9 @@ TEST_F(SceneTest, PiecesOfATexelShareNoFace) {
   for (std::size_t a = 0; a < boxes.size(); ++a)
     for (std::size_t b = 0; b < boxes.size(); ++b)
       for (int k = 0; k < 3; ++k)
-        // A box must not begin where another one ends.
-        if (a != b) EXPECT_GT(std::abs(boxes[a][k] - boxes[b][3 + k]), 3e-4) << a << " " << b << " " << k;
+        if (a != b) {  // a box must not begin where another one ends
+          EXPECT_GT(std::abs(boxes[a][k] - boxes[b][3 + k]), 3e-4) << a << " " << b << " " << k;
+        }
 }
 
 TEST_F(SceneTest, NearCellHoldsWhatLeansIn) {
