@@ -12,7 +12,7 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr int kNearPiece = 24, kFarPiece = 66;
+constexpr int kNearPiece = 24, kFarPiece = 34;
 
 /// Texels that share their density.
 struct FarGroup {
