@@ -14,7 +14,7 @@ namespace {
 constexpr double kNearTiles = 6;       // nearer texels are merged cell by cell
 constexpr double kFoldedPixels = 10;   // tiles less wide than this on the picture are folded
 constexpr int kRingCells = 28;         // most texels in the ring around a placement
-constexpr double kFinestPixels = 0.6;  // a finer voxel than this on the picture is not worth its memory
+constexpr double kFinestPixels = 0.8;  // a finer voxel than this on the picture is not worth its memory
 constexpr double kRingPixels = 1.3;    // what the ring is given
 
 double smoothstep(double x) {

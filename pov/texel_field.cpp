@@ -12,7 +12,7 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr int kNearPiece = 24, kFarPiece = 34;
+constexpr int kNearPiece = 24, kOverhangingPiece = 45, kFoldedPiece = 66;
 
 /// Texels that share their density.
 struct FarGroup {
@@ -94,7 +94,7 @@ class FieldWriter {
       MediaSamples samples(block);
       add_texel(samples, block, grid, p, shading.radiance, group.folded);
       if (pieces.empty()) {
-        pieces = find_pieces(block, samples.density, kFarPiece);
+        pieces = find_pieces(block, samples.density, group.folded ? kFoldedPiece : kOverhangingPiece);
         names = declare_density(declarations_, c_, block, samples, name);
         note_ground(p, shading, double(members.size()));
       }
