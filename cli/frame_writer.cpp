@@ -50,8 +50,8 @@ bool FrameWriter::reuse(const grass::GrassFrame& frame) {
     return f.variant == frame.variant && f.index == frame.index;
   });
   if (found == whole_.end()) return false;
-  for (const std::string& file : {found->texel, found->optics, found->points})
-    if (!file.empty() && !std::filesystem::exists(folder_.path() / file)) return false;
+  for (const auto& [series, file] : found->files)
+    if (!std::filesystem::exists(folder_.path() / file)) return false;
   frames_.push_back(*found);
   return true;
 }
@@ -73,33 +73,31 @@ void FrameWriter::write(const grass::GrassFrame& frame) {
   r.index = frame.index;
   r.wd = frame.wd;
   r.time_days = frame.time_days;
-  r.occupied_voxels = frame.texel->occupied_voxels();
-  r.point_count = std::int64_t(frame.points->size());
-  r.total_density = frame.texel->total_density();
-  if (output_.fields) {
-    r.texel = path_of("texel", frame, "vti");
-    vis::merge_ranges(r.ranges, vis::write_texel_vti(folder_.path() / r.texel, *frame.texel, box_, false,
-                                                     stamp, compression));
-  }
-  if (output_.optics) {
-    r.optics = path_of("optics", frame, "vti");
-    vis::merge_ranges(r.ranges, vis::write_texel_vti(folder_.path() / r.optics, *frame.texel, box_, true,
-                                                     stamp, compression));
-  }
-  if (output_.points) {
-    r.points = path_of("points", frame, "vtp");
+  r.numbers = {{"occupied_voxels", double(frame.texel->occupied_voxels())},
+               {"points", double(frame.points->size())},
+               {"total_density", frame.texel->total_density()}};
+  const auto add = [&](const char* series, const char* extension) {
+    r.files.emplace_back(series, path_of(series, frame, extension));
+    return folder_.path() / r.files.back().second;
+  };
+  if (output_.fields)
+    vis::merge_ranges(
+        r.ranges, vis::write_texel_vti(add("texel", "vti"), *frame.texel, box_, false, stamp, compression));
+  if (output_.optics)
+    vis::merge_ranges(
+        r.ranges, vis::write_texel_vti(add("optics", "vti"), *frame.texel, box_, true, stamp, compression));
+  if (output_.points)
     vis::merge_ranges(r.ranges,
-                      vis::write_points_vtp(folder_.path() / r.points, *frame.points, stamp, compression));
-  }
+                      vis::write_points_vtp(add("points", "vtp"), *frame.points, stamp, compression));
   frames_.push_back(r);
   vis::write_whole_file(folder_.partial_file(), partial_json(frames_));
 }
 
-void FrameWriter::write_series(const char* name, std::string FrameRecord::*file) const {
+void FrameWriter::write_series(const char* name, const char* series) const {
   for (int variant = 0; variant < variants_; ++variant) {
     std::vector<std::pair<double, std::string>> entries;
     for (const FrameRecord& f : frames_)
-      if (f.variant == variant && !(f.*file).empty()) entries.emplace_back(f.time_days, f.*file);
+      if (f.variant == variant && !f.file(series).empty()) entries.emplace_back(f.time_days, f.file(series));
     if (entries.empty()) continue;
     const std::string suffix = variant > 0 ? fmt::format("_variant{}", variant) : "";
     vis::write_pvd(folder_.path() / fmt::format("{}{}.pvd", name, suffix), entries);
@@ -107,9 +105,9 @@ void FrameWriter::write_series(const char* name, std::string FrameRecord::*file)
 }
 
 void FrameWriter::write_series() const {
-  write_series("grass", &FrameRecord::texel);
-  write_series("grass_optics", &FrameRecord::optics);
-  write_series("grass_points", &FrameRecord::points);
+  write_series("grass", "texel");
+  write_series("grass_optics", "optics");
+  write_series("grass_points", "points");
 }
 
 }  // namespace witherfield::cli

@@ -25,7 +25,7 @@ class FrameWriter {
  private:
   bool reuse(const grass::GrassFrame& frame);
   std::string path_of(const char* series, const grass::GrassFrame& frame, const char* extension) const;
-  void write_series(const char* name, std::string FrameRecord::*file) const;
+  void write_series(const char* name, const char* series) const;
 
   const RunFolder& folder_;
   const scene::OutputOptions output_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "cli/console.hpp"
 #include "cli/frame_store.hpp"
@@ -20,9 +21,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The stages of one run, in order. The folder and the record live longer than a failure, which must leave no
-/// half-written run.
-class GrassRun {
+using Json = nlohmann::ordered_json;
+
+constexpr double kDensityErrorLimit = 1e-6;  // relative; float storage of the voxels
+constexpr double kRootShiftLimit_m = 1e-9;
+
+void tell_terrain(RunRecord& run, const check::MeshReport& m) {
+  const Json j{{"faces", m.faces},
+               {"area_m2", m.area_m2},
+               {"manifold", m.manifold},
+               {"components", m.components},
+               {"border_loops", m.border_loops},
+               {"degenerate_faces", m.degenerate_faces},
+               {"faces_down", m.faces_down},
+               {"self_intersections_checked", m.self_intersections_checked},
+               {"self_intersections", m.self_intersections}};
+  run.details.emplace_back("terrain_mesh", j.dump());
+  run.checks.push_back({"terrain_faces_down", double(m.faces_down), 0, "faces"});
+  run.checks.push_back({"terrain_degenerate_faces", double(m.degenerate_faces), 0, "faces"});
+  run.checks.push_back({"terrain_self_intersections", double(m.self_intersections), 0, "pairs"});
+}
+
+void tell_simulation(RunRecord& run, const grass::GrassReport& r) {
+  run.checks.push_back({"density_error_relative", r.density_error_max, kDensityErrorLimit, ""});
+  run.checks.push_back({"root_shift", r.root_shift_max_m, kRootShiftLimit_m, "m"});
+  run.checks.push_back({"not_finite", r.all_finite ? 0.0 : 1.0, 0.0, ""});
+  Json stages = Json::array();  // parts of "simulate and write"
+  for (const auto& s : r.stages) stages.push_back({{"name", s.name}, {"seconds", s.seconds}});
+  run.details.emplace_back("simulation_stages", stages.dump());
+  run.details.emplace_back("blades", Json(r.blades).dump());
+  run.details.emplace_back(
+      "points", Json{{"first", r.points_first}, {"last", r.points_last}, {"merges", r.merges}}.dump());
+}
+
+/// The stages of one run, in order. See RunStages.
+class GrassRun : public RunStages {
  public:
   GrassRun(scene::GrassScene scene, RunFolder& folder, RunRecord& record, Console& console)
       : scene_(std::move(scene)),
@@ -32,22 +65,22 @@ class GrassRun {
         clock_(record.stages) {}
 
   /// Everything that can be wrong with the input shows here, before anything is written.
-  void prepare() {
+  void prepare() override {
     if (!scene_.terrain) return;
     clock_.start("terrain and placement");
     console_.note("terrain " + (scene_.terrain->dem.empty() ? scene_.terrain->mesh : scene_.terrain->dem));
     hill_.emplace(make_hill(scene_));
-    record_.terrain = hill_->report;
+    tell_terrain(record_, hill_->report);
     clock_.start("");
   }
 
-  void simulate(std::vector<FrameRecord> whole) {
+  void simulate(std::vector<FrameRecord> whole) override {
     clock_.start("simulate and write");
     if (scene_.output.pov)
       for (std::size_t i = 0; i < scene_.stills.size(); ++i) want_frames(i);
     FrameWriter writer(folder_, scene_, std::move(whole));
     const Progress bar = console_.progress();
-    record_.report = grass::simulate_grass(
+    const grass::GrassReport report = grass::simulate_grass(
         scene_.grass,
         [&](const grass::GrassFrame& frame) {
           check_interrupted();
@@ -56,11 +89,12 @@ class GrassRun {
           store_.take(frame);
         },
         [&](std::string_view stage, double fraction) { bar(stage, fraction); });
+    tell_simulation(record_, report);
     writer.write_series();
     clock_.start("");
   }
 
-  void write_pictures() {
+  void write_pictures() override {
     if (hill_) write_hill(folder_, *hill_);
     if (scene_.output.fields)
       vis::write_paraview_script(folder_.path() / "view_in_paraview.py", ranges_of(record_),
@@ -72,14 +106,6 @@ class GrassRun {
       write_still(i);
     }
     clock_.start("");
-  }
-
-  void finish() {
-    for (const fs::path& file : folder_.files())
-      if (folder_.path() / file != folder_.partial_file())
-        record_.files.emplace_back(file.generic_string(), fs::file_size(folder_.path() / file));
-    vis::write_whole_file(folder_.run_file(), run_json(record_));
-    fs::remove(folder_.partial_file());
   }
 
  private:
@@ -124,57 +150,14 @@ class GrassRun {
   FrameStore store_;
 };
 
-void print_summary(const RunRecord& record, const RunFolder& folder, Console& console) {
-  double seconds = 0, bytes = 0;
-  for (const StageRecord& s : record.stages) seconds += s.seconds;
-  for (const auto& [path, size] : record.files) bytes += double(size);
-  for (const Check& c : checks_of(record))
-    if (!c.passed())
-      console.note(
-          fmt::format("warning: check {} gives {} {}, the limit is {}", c.name, c.value, c.unit, c.limit));
-  const std::string where = folder.path().string();
-  console.say(fmt::format("{}: {} key frames of {} blades in {}, {}", where, record.frames.size(),
-                          record.report.blades, duration_text(seconds), size_text(bytes)));
-  if (!record.stills.empty()) console.say("  pictures:  witherfield render " + where);
-  if (fs::exists(folder.path() / "grass.pvd")) console.say("  data:      paraview " + where + "/grass.pvd");
-}
-
 }  // namespace
 
 void run_grass(const RunRequest& request, Console& console) {
   scene::GrassScene scene = scene::load_grass_scene(request.scene, request.preview);
-  const ThreadLimit limit(request.threads);
-  RunFolder folder(request.folder.empty() ? fs::path("out") / scene.name : fs::path(request.folder));
-  RunRecord record;
-  record.scene_json = scene::resolved_json(scene);
-  record.scene_file = request.scene;
-  record.preview = request.preview;
-  record.threads = request.threads;
-  const std::string signature = run_signature(record.scene_json);
-  const RunFolder::Found found = folder.inspect(signature, request.resume, request.force);
-  if (found == RunFolder::Found::complete) {
-    console.say(folder.path().string() + ": this run is complete; nothing to do");
-    return;
-  }
-  GrassRun run(std::move(scene), folder, record, console);
-  run.prepare();
-  std::vector<FrameRecord> whole;
-  if (found == RunFolder::Found::unfinished) whole = read_partial(folder.partial_file());
-  try {
-    folder.begin(signature, request.force);
-    run.simulate(std::move(whole));
-    run.write_pictures();
-    run.finish();
-  } catch (...) {
-    // Whole key frames stay for --resume; without any there is nothing to keep.
-    if (record.frames.empty() && found == RunFolder::Found::nothing) folder.abandon();
-    if (!record.frames.empty())
-      console.note(
-          fmt::format("{} whole key frames stay in {}; `witherfield run {} -o {} --resume` finishes the run",
-                      record.frames.size(), folder.path().string(), request.scene, folder.path().string()));
-    throw;
-  }
-  print_summary(record, folder, console);
+  const std::string name = scene.name, json = scene::resolved_json(scene);
+  carry_out(request, "grass", name, json, console, [&](RunFolder& folder, RunRecord& record) {
+    return std::make_unique<GrassRun>(std::move(scene), folder, record, console);
+  });
 }
 
 }  // namespace witherfield::cli

@@ -47,7 +47,7 @@ void print_file(const fs::path& file) {
 
 void print_run(const fs::path& folder) {
   const RunSummary run = read_run(folder);
-  fmt::print("{}: run \"{}\", witherfield {}, seed {}\n", folder.string(), run.name, run.version,
+  fmt::print("{}: {} run \"{}\", witherfield {}, seed {}\n", folder.string(), run.kind, run.name, run.version,
              run.seed_text);
   fmt::print("  {} key frames, {}, made in {}, peak memory {:.0f} MiB\n", run.frames.size(),
              size_text(double(run.bytes)), duration_text(run.seconds), run.peak_memory_MiB);
@@ -55,8 +55,11 @@ void print_run(const fs::path& folder) {
   vis::ValueRanges ranges;
   for (const FrameRecord& f : run.frames) {
     vis::merge_ranges(ranges, f.ranges);
-    fmt::print("  wd {:<8.4g} day {:<8.4g} variant {}  {} voxels with grass, {} points  {}\n", f.wd,
-               f.time_days, f.variant, f.occupied_voxels, f.point_count, f.texel);
+    fmt::print("  wd {:<8.4g} day {:<8.4g}", f.wd, f.time_days);
+    if (run.kind == "grass") fmt::print(" variant {} ", f.variant);
+    for (const auto& [name, value] : f.numbers) fmt::print(" {} {:.6g}", name, value);
+    for (const auto& [series, path] : f.files) fmt::print("  {}", path);
+    fmt::print("\n");
   }
   fmt::print("ranges over the run\n");
   for (const auto& [name, r] : ranges) {

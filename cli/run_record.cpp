@@ -15,9 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDensityErrorLimit = 1e-6;  // relative; float storage of the voxels
-constexpr double kRootShiftLimit_m = 1e-9;
-
 /// {"water": [lo, hi], ...}: what pictures take their colour scales from.
 Json ranges_json(const vis::ValueRanges& ranges) {
   Json out = Json::object();
@@ -33,12 +30,10 @@ Json units_json(const vis::ValueRanges& ranges) {
 
 Json frame_json(const FrameRecord& f) {
   Json out{{"variant", f.variant}, {"index", f.index}, {"wd", f.wd}, {"time_days", f.time_days}};
-  if (!f.texel.empty()) out["texel"] = f.texel;
-  if (!f.optics.empty()) out["optics"] = f.optics;
-  if (!f.points.empty()) out["points"] = f.points;
-  out["occupied_voxels"] = f.occupied_voxels;
-  out["point_count"] = f.point_count;
-  out["total_density"] = f.total_density;
+  out["files"] = Json::object();
+  for (const auto& [series, path] : f.files) out["files"][series] = path;
+  out["numbers"] = Json::object();
+  for (const auto& [name, value] : f.numbers) out["numbers"][name] = value;
   out["ranges"] = ranges_json(f.ranges);
   return out;
 }
@@ -49,12 +44,9 @@ FrameRecord frame_from(const Json& j) {
   j.at("index").get_to(f.index);
   j.at("wd").get_to(f.wd);
   j.at("time_days").get_to(f.time_days);
-  f.texel = j.value("texel", "");
-  f.optics = j.value("optics", "");
-  f.points = j.value("points", "");
-  j.at("occupied_voxels").get_to(f.occupied_voxels);
-  j.at("point_count").get_to(f.point_count);
-  j.at("total_density").get_to(f.total_density);
+  for (const auto& [series, path] : j.at("files").items())
+    f.files.emplace_back(series, path.get<std::string>());
+  for (const auto& [name, value] : j.at("numbers").items()) f.numbers.emplace_back(name, value.get<double>());
   for (const auto& [name, r] : j.at("ranges").items())
     f.ranges[name] = {r.at(0).get<double>(), r.at(1).get<double>()};
   return f;
@@ -70,21 +62,9 @@ Json still_json(const StillRecord& s) {
   return out;
 }
 
-Json terrain_json(const check::MeshReport& m) {
-  return {{"faces", m.faces},
-          {"area_m2", m.area_m2},
-          {"manifold", m.manifold},
-          {"components", m.components},
-          {"border_loops", m.border_loops},
-          {"degenerate_faces", m.degenerate_faces},
-          {"faces_down", m.faces_down},
-          {"self_intersections_checked", m.self_intersections_checked},
-          {"self_intersections", m.self_intersections}};
-}
-
 Json checks_json(const RunRecord& run) {
   Json out = Json::object();
-  for (const Check& c : checks_of(run)) {
+  for (const Check& c : run.checks) {
     out[c.name] = {{"value", c.value}, {"limit", c.limit}, {"passed", c.passed()}};
     if (!c.unit.empty()) out[c.name]["unit"] = c.unit;
   }
@@ -115,6 +95,12 @@ StillRecord still_from(const Json& j) {
 
 }  // namespace
 
+std::string FrameRecord::file(const std::string& series) const {
+  for (const auto& [name, path] : files)
+    if (name == series) return path;
+  return "";
+}
+
 std::string run_signature(const std::string& scene_json) {
   return Json{{"program", "witherfield"}, {"version", kProgramVersion}, {"scene", Json::parse(scene_json)}}
              .dump(2) +
@@ -140,18 +126,6 @@ std::vector<FrameRecord> read_partial(const std::filesystem::path& file) {
   return frames;
 }
 
-std::vector<Check> checks_of(const RunRecord& run) {
-  std::vector<Check> checks{{"density_error_relative", run.report.density_error_max, kDensityErrorLimit, ""},
-                            {"root_shift", run.report.root_shift_max_m, kRootShiftLimit_m, "m"},
-                            {"not_finite", run.report.all_finite ? 0.0 : 1.0, 0.0, ""}};
-  if (run.terrain) {
-    checks.push_back({"terrain_faces_down", double(run.terrain->faces_down), 0, "faces"});
-    checks.push_back({"terrain_degenerate_faces", double(run.terrain->degenerate_faces), 0, "faces"});
-    checks.push_back({"terrain_self_intersections", double(run.terrain->self_intersections), 0, "pairs"});
-  }
-  return checks;
-}
-
 vis::ValueRanges ranges_of(const RunRecord& run) {
   vis::ValueRanges all;
   for (const FrameRecord& f : run.frames) vis::merge_ranges(all, f.ranges);
@@ -159,11 +133,8 @@ vis::ValueRanges ranges_of(const RunRecord& run) {
 }
 
 std::string run_json(const RunRecord& run) {
-  Json j{{"program", "witherfield"},
-         {"version", kProgramVersion},
-         {"scene_file", run.scene_file},
-         {"preview", run.preview},
-         {"threads", run.threads}};
+  Json j{{"program", "witherfield"},     {"version", kProgramVersion}, {"kind", run.kind},
+         {"scene_file", run.scene_file}, {"preview", run.preview},     {"threads", run.threads}};
   j["scene"] = Json::parse(run.scene_json);
   j["seed"] = j["scene"]["seed"];
   double seconds = 0, peak = 0;
@@ -173,18 +144,12 @@ std::string run_json(const RunRecord& run) {
     seconds += s.seconds;
     peak = std::max(peak, s.peak_memory_MiB);
   }
-  j["simulation_stages"] = Json::array();  // parts of "simulate and write"
-  for (const auto& s : run.report.stages)
-    j["simulation_stages"].push_back({{"name", s.name}, {"seconds", s.seconds}});
   j["seconds"] = seconds;
   j["peak_memory_MiB"] = peak;
-  j["blades"] = run.report.blades;
-  j["points"] = {
-      {"first", run.report.points_first}, {"last", run.report.points_last}, {"merges", run.report.merges}};
+  for (const auto& [name, text] : run.details) j[name] = Json::parse(text);
   j["value_ranges"] = ranges_json(ranges_of(run));
   j["units"] = units_json(ranges_of(run));
   j["checks"] = checks_json(run);
-  if (run.terrain) j["terrain_mesh"] = terrain_json(*run.terrain);
   j["frames"] = Json::array();
   for (const FrameRecord& f : run.frames) j["frames"].push_back(frame_json(f));
   j["stills"] = Json::array();
@@ -207,6 +172,7 @@ RunSummary read_run(const std::filesystem::path& folder) {
   try {
     const Json j = parse_file(file);
     RunSummary s;
+    s.kind = j.at("kind").get<std::string>();
     s.name = j.at("scene").at("name").get<std::string>();
     s.version = j.at("version").get<std::string>();
     s.seed_text = j.at("seed").dump();

@@ -8,21 +8,23 @@
 #include <utility>
 #include <vector>
 
-#include "sim/check/mesh_check.hpp"
 #include "sim/core/view.hpp"
-#include "sim/grass/simulate.hpp"
 #include "vis/writers.hpp"
 
 namespace witherfield::cli {
 
-/// One key frame that has been written whole. Paths are relative to the run's folder, "" = not asked for.
+/// One key frame that has been written whole.
 struct FrameRecord {
   int variant = 0, index = 0;
   double wd = 0, time_days = 0;
-  std::string texel, optics, points;
-  std::int64_t occupied_voxels = 0, point_count = 0;
-  double total_density = 0;
+  std::vector<std::pair<std::string, std::string>>
+      files;  ///< series ("texel", "fruit" ...) -> path relative to the run's folder
+  std::vector<std::pair<std::string, double>>
+      numbers;  ///< what else is told of the frame, with units in the names
   vis::ValueRanges ranges;
+
+  /// Path of the frame's file in a series, "" = the run does not write it.
+  std::string file(const std::string& series) const;
 };
 
 struct StillRecord {
@@ -37,15 +39,24 @@ struct StageRecord {
   double peak_memory_MiB = 0;  ///< largest resident memory during the stage
 };
 
+/// A law that the run was checked against: name, measured value, limit, unit.
+struct Check {
+  std::string name;
+  double value, limit;
+  std::string unit;
+  bool passed() const { return value <= limit; }
+};
+
 struct RunRecord {
+  std::string kind;
   std::string scene_json;  ///< resolved
   std::string scene_file;
   bool preview = false;
   int threads = 0;
   std::vector<StageRecord> stages;
-  grass::GrassReport report;
+  std::vector<Check> checks;
+  std::vector<std::pair<std::string, std::string>> details;  ///< what only this kind tells: name -> JSON text
   std::vector<FrameRecord> frames;
-  std::optional<check::MeshReport> terrain;
   std::vector<StillRecord> stills;
   std::vector<std::pair<std::string, std::uintmax_t>> files;  ///< path, bytes
 };
@@ -58,21 +69,12 @@ std::string partial_json(const std::vector<FrameRecord>& frames);
 /// understood.
 std::vector<FrameRecord> read_partial(const std::filesystem::path& file);
 
-/// Laws that the run was checked against: name, measured value, limit, unit.
-struct Check {
-  std::string name;
-  double value, limit;
-  std::string unit;
-  bool passed() const { return value <= limit; }
-};
-std::vector<Check> checks_of(const RunRecord& run);
-
 vis::ValueRanges ranges_of(const RunRecord& run);  ///< over all frames
 std::string run_json(const RunRecord& run);
 
 /// What other commands need to know of a run.
 struct RunSummary {
-  std::string name;
+  std::string name, kind;
   std::string version, seed_text;
   std::vector<FrameRecord> frames;
   std::vector<StillRecord> stills;  ///< name, wd, size, looks and scene files only

@@ -48,10 +48,11 @@ bool is_optics(const std::string& field) {
 fs::path frame_file(const Options& o, Console& console) {
   const RunSummary run = read_run(o.input);
   const bool optics = is_optics(o.volume.field);
+  const std::string series = optics ? "optics" : "texel";
   const FrameRecord* best = nullptr;
   double best_distance = 0;
   for (const FrameRecord& f : run.frames) {
-    if (f.variant != 0 || (optics ? f.optics : f.texel).empty()) continue;
+    if (f.variant != 0 || f.file(series).empty()) continue;
     const double distance = o.day ? std::abs(f.time_days - *o.day) : o.wd ? std::abs(f.wd - *o.wd) : -f.wd;
     if (!best || distance < best_distance) best = &f, best_distance = distance;
   }
@@ -60,7 +61,7 @@ fs::path frame_file(const Options& o, Console& console) {
         fmt::format("'{}' has no {} files: set output.{} = true in the scene file and run it again", o.input,
                     optics ? "optics" : "texel", optics ? "optics" : "fields"));
   console.note(fmt::format("key frame at wd {:.4g}, day {:.4g}", best->wd, best->time_days));
-  return fs::path(o.input) / (optics ? best->optics : best->texel);
+  return fs::path(o.input) / best->file(series);
 }
 
 void volume(Options& o, const bool& quiet) {

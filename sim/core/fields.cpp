@@ -30,6 +30,22 @@ constexpr std::array kFields{
     FieldSpec{"texel_id", "1", 1, 0, 1e6, "Texel"},
     FieldSpec{"rotation", "1", 1, -4, 3, "Quarter turns (negative: mirrored)"},
     FieldSpec{"lod", "1", 1, 0, 3, "Level of detail"},
+    FieldSpec{"organ_id", "1", 1, 0, 100, "Organ"},
+    FieldSpec{"kernel_id", "1", 1, -1, 1e6, "Kernel (-1: none)"},
+    FieldSpec{"sharpness", "1", 1, 0, 3, "Subdivision tag (0 smooth, 1 dart, 2 crease, 3 sharp)"},
+    FieldSpec{"moisture_wb", "1", 1, 0, 1, "Kernel moisture, wet basis"},
+    FieldSpec{"uv", "1", 2, -1e3, 1e3, "Texture coordinates"},
+    FieldSpec{"vein", "1", 1, 0, 1, "Vein"},
+    FieldSpec{"strain_area", "1", 1, -1, 10, "Areal strain"},
+    FieldSpec{"stress_von_mises_MPa", "MPa", 1, 0, 1e4, "Von Mises stress"},
+    FieldSpec{"displacement_m", "m", 3, -10, 10, "Displacement"},
+    FieldSpec{"footfalls", "1", 1, 0, 1e12, "Footfalls"},
+    FieldSpec{"dose_N_s_m2", "N s/m2", 1, 0, 1e15, "Pressure times time"},
+    FieldSpec{"slide_m", "m", 1, 0, 1e9, "Sliding path"},
+    FieldSpec{"wear_depth_um", "um", 1, 0, 1e6, "Wear depth"},
+    FieldSpec{"gloss", "1", 1, 0, 1, "Gloss"},
+    FieldSpec{"dirt", "1", 1, 0, 1, "Dirt"},
+    FieldSpec{"height_m", "m", 1, -100, 100, "Height"},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -9,7 +9,7 @@ namespace witherfield {
 struct FieldSpec {
   std::string_view name;   ///< array name as written to files; carries the unit where the unit is not 1
   std::string_view unit;   ///< "1" for dimensionless
-  int components;          ///< 1 or 3
+  int components;          ///< 1, 2 or 3
   double lo, hi;           ///< physical bounds, used by checks and as last resort for colour scales
   std::string_view title;  ///< for colour bars, e.g. "Water content"
 };

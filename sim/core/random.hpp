@@ -10,7 +10,8 @@ namespace witherfield {
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
 /// What a stream is for; streams of different purpose never overlap.
-enum class Stream : std::uint32_t { blades = 1, clumps, point_count, point_place, placement, onset, colour, noise, variant, test };
+enum class Stream : std::uint32_t { blades = 1, clumps, point_count, point_place, placement, onset, colour, noise, variant, test,
+                                    kernels, outline, walker, footprint, floor_material };
 
 /// A stream of draws keyed by (seed, what, index).
 class Random {
