@@ -17,6 +17,7 @@ void add_run_command(CLI::App& app, const bool& quiet);
 void add_render_command(CLI::App& app, const bool& quiet);
 void add_volume_command(CLI::App& app, const bool& quiet);
 void add_info_command(CLI::App& app, const bool& quiet);
+void add_check_command(CLI::App& app, const bool& quiet);
 
 /// "1280x720" -> (1280, 720). @throws InvalidInput.
 std::pair<int, int> parse_size(const std::string& text);

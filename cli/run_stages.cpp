@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/console.hpp"
+#include "sim/core/errors.hpp"
 #include "sim/core/parallel.hpp"
 #include "vis/atomic_file.hpp"
 
@@ -24,16 +25,24 @@ void print_summary(const RunRecord& record, const RunFolder& folder, Console& co
   double seconds = 0, bytes = 0;
   for (const StageRecord& s : record.stages) seconds += s.seconds;
   for (const auto& [path, size] : record.files) bytes += double(size);
-  for (const Check& c : record.checks)
-    if (!c.passed())
-      console.note(
-          fmt::format("warning: check {} gives {} {}, the limit is {}", c.name, c.value, c.unit, c.limit));
   const std::string where = folder.path().string();
   console.say(fmt::format("{}: {} key frames in {}, {}", where, record.frames.size(), duration_text(seconds),
                           size_text(bytes)));
   if (!record.stills.empty()) console.say("  pictures:  witherfield render " + where);
   const fs::path series = folder.path() / (record.kind + ".pvd");
   if (fs::exists(series)) console.say("  data:      paraview " + series.string());
+}
+
+/// The run is whole, and stays; but the caller must hear of it.
+void insist_on_checks(const RunRecord& record, const RunFolder& folder) {
+  std::string failed;
+  for (const Check& c : record.checks)
+    if (!c.passed())
+      failed += fmt::format("{}{} is {}{}{}, the limit is {}", failed.empty() ? "" : "; ", c.name, c.value,
+                            c.unit.empty() ? "" : " ", c.unit, c.limit);
+  if (!failed.empty())
+    throw Error(
+        fmt::format("the run in {} is complete, but a check failed: {}", folder.path().string(), failed), 1);
 }
 
 }  // namespace
@@ -73,6 +82,7 @@ void carry_out(const RunRequest& request, const std::string& kind, const std::st
     throw;
   }
   print_summary(record, folder, console);
+  insist_on_checks(record, folder);
 }
 
 }  // namespace witherfield::cli

@@ -35,7 +35,8 @@ class RunStages {
 /// half-written run.
 using MakeStages = std::function<std::unique_ptr<RunStages>(RunFolder&, RunRecord&)>;
 
-/// @throws InvalidInput, IoFailure, SolverFailure, Interrupted.
+/// @throws InvalidInput, IoFailure, SolverFailure, Interrupted; Error with exit code 1 when the run is whole
+/// but a check failed.
 void carry_out(const RunRequest& request, const std::string& kind, const std::string& name,
                const std::string& scene_json, Console& console, const MakeStages& make);
 

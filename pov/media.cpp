@@ -8,8 +8,7 @@
 namespace witherfield::pov {
 namespace {
 
-constexpr int kMostIntervals = 250;     // POV-Ray stops above 254 ("internal nesting limit")
-constexpr double kPieceOverlap = 5e-5;  // in tiles: pieces must not share a face nor leave a gap
+constexpr int kMostIntervals = 250;  // POV-Ray stops above 254 ("internal nesting limit")
 
 int wrap(int i, int n) {
   return ((i % n) + n) % n;
@@ -132,6 +131,7 @@ std::vector<MediaPiece> find_pieces(const MediaBlock& b, std::span<const float> 
         const Extent& e = extent[(std::size_t(k) * py + j) * px + i];
         if (e.hi < 0) continue;
         MediaPiece p;
+        p.parity = (i & 1) + 2 * (j & 1) + 4 * (k & 1);
         side(i, px, 0, p.lo_m.x, p.hi_m.x);
         side(j, py, 1, p.lo_m.y, p.hi_m.y);
         p.lo_m.z = std::max(b.box_lo_m.z, b.first_m.z + std::max(k * n, e.lo) * h);
@@ -174,19 +174,15 @@ std::string quality_text() {
 
 std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces,
                        double overlap, const MediaNames& names, double depth_per_density,
-                       const glm::dvec3& factor, const std::string& transform) {
-  const double tile = c.input->tile_m, over_m = overlap * tile, piece_m = kPieceOverlap * tile;
-  glm::dvec3 lo = b.box_lo_m - over_m, hi = b.box_hi_m + over_m;
-  lo.z = b.box_lo_m.z + over_m;  // above the ground, below the wrap
-  hi.z = b.box_hi_m.z - over_m;
-  const double per_unit = depth_per_density / (b.spacing_m * c.unit);
+                       const glm::dvec3& factor, const std::string& transform, double height_scale) {
+  const double tile = c.input->tile_m, per_unit = depth_per_density / (b.spacing_m * c.unit);
   Text t;
   for (const MediaPiece& piece : pieces) {
-    glm::dvec3 a = piece.lo_m - piece_m, z = piece.hi_m + piece_m;
-    for (int k = 0; k < 3; ++k) {  // pieces at a wall end where the box ends
-      if (piece.lo_m[k] <= b.box_lo_m[k] + 1e-9) a[k] = lo[k];
-      if (piece.hi_m[k] >= b.box_hi_m[k] - 1e-9) z[k] = hi[k];
-    }
+    const double over_m = (overlap + kCellOverlaps * kOverlapStep * piece.parity) * tile;
+    glm::dvec3 a = piece.lo_m - over_m, z = piece.hi_m + over_m;
+    // Above the ground, all by different heights in the world; below the wrap.
+    a.z = std::max(a.z, b.box_lo_m.z + over_m / height_scale);
+    z.z = std::min(z.z, b.box_hi_m.z - over_m);
     if (!(a.x < z.x && a.y < z.y && a.z < z.z)) continue;
     t << "box{" << flip(a, c.unit) << "," << flip(z, c.unit) << " hollow no_shadow pigment{rgbt 1}\n"
       << interior_text(names, per_unit, factor, piece.intervals) << transform << "}\n";

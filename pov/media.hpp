@@ -47,6 +47,7 @@ void add_texel(MediaSamples& samples, const MediaBlock& block, const TexelGrid& 
 struct MediaPiece {
   glm::dvec3 lo_m, hi_m;
   int intervals = 1;  ///< samples along the longest side
+  int parity = 0;     ///< 0..7, another one than that of any piece next to it
 };
 std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density,
                                     int piece_samples);
@@ -66,9 +67,9 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& bloc
 /// #declares of the intervals' quality; before any boxes.
 std::string quality_text();
 /// The boxes of one texel. @param overlap tiles, see box_overlap; @param depth_per_density optical depth of a
-/// sample's spacing at density 1; @param factor on the emission.
+/// sample's spacing at density 1; @param factor on the emission; @param height_scale of the transform.
 std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces,
                        double overlap, const MediaNames& names, double depth_per_density,
-                       const glm::dvec3& factor, const std::string& transform);
+                       const glm::dvec3& factor, const std::string& transform, double height_scale = 1);
 
 }  // namespace witherfield::pov

@@ -137,7 +137,7 @@ StandPlan plan_stands(const SceneInput& in, const Surroundings* around, double m
 }
 
 double box_overlap(int cell_i, int cell_j) {
-  return 0.00005 * (1 + (cell_i & 1) + 2 * (cell_j & 1));
+  return kOverlapStep * (1 + (cell_i & 1) + 2 * (cell_j & 1));
 }
 
 TexelInstance smoothed(const StandPlan& plan, const TexelInstance& t) {

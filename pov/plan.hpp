@@ -67,9 +67,15 @@ struct StandPlan {
 /// an instance still matters.
 StandPlan plan_stands(const SceneInput& input, const Surroundings* around, double margin_m);
 
-/// How far, in tiles, a texel's box reaches over its walls (and stands above its ground): > 0, and different
-/// for all neighbours, so that no two faces coincide (which makes POV-Ray lose whole boxes) and no gap is
-/// left (which shows as a dark line when seen edge-on).
+/// Where boxes of media meet they overlap a little: a gap shows as a dark line when seen edge-on. And no two
+/// faces of boxes that overlap may coincide, because POV-Ray enters and leaves a box by taking turns and
+/// overlooks a face within 1e-4 units of another: then whole boxes are lost, or are never left. So every box
+/// reaches over its walls by a length of its own among its neighbours: kCellOverlaps lengths for the cells (a
+/// 2 x 2 pattern) times eight for the pieces of one cell's texel (2 x 2 x 2). In tiles, of kUnitsPerTile
+/// units.
+inline constexpr double kOverlapStep = 2e-5;
+inline constexpr int kCellOverlaps = 4;
+/// The overlap of piece 0 of a cell; piece p has kCellOverlaps * kOverlapStep * p more.
 double box_overlap(int cell_i, int cell_j);
 
 /// Slopes and sun visibility as the light sees them: means over a cell and its neighbours, so that tiles do

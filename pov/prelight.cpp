@@ -35,7 +35,15 @@ double specular_lobe(const glm::dvec3& tangent, const glm::dvec3& light, const g
 
 glm::dvec3 scattered_light(const Illumination& light, const glm::dvec3& mean_albedo, double sky) {
   const glm::dvec3 incoming = light.sun_rgb * (0.6 * light.to_sun.z) + light.sky_rgb;
-  return mean_albedo * incoming * (0.7 * std::pow(std::max(sky, 0.0), 0.75));
+  const double seen = std::clamp(sky, 0.0, 1.0);
+  glm::dvec3 out;
+  for (int c = 0; c < 3; ++c) {
+    // Leaves that scatter the share w let all light together through as black ones of sqrt(1 - w) times the area
+    // would; a deep canopy sends back (1 - s) / (1 + s) (Goudriaan 1977, ch. 2).
+    const double s = std::sqrt(1 - std::clamp(mean_albedo[c], 0.0, 0.98)), down = std::pow(seen, s);
+    out[c] = incoming[c] * (down - seen + down * (1 - s) / (1 + s));
+  }
+  return out;
 }
 
 std::vector<float> sky_visibility(const DenseDensity& block, double per_density,

@@ -18,8 +18,8 @@ struct Illumination {
   glm::dvec3 sky_rgb{0.43};    ///< on a face that sees the whole sky
 };
 
-/// Light scattered again inside the canopy, on a spot that sees the share `sky` of the sky: grows with the
-/// blades' mean albedo (reflectance + transmittance) and dies out with depth like the sky itself.
+/// Light scattered inside the canopy, on a spot that sees the share `sky` of the sky: from above after scattering, and
+/// sent back from below, by the mean albedo of the blades (reflectance + transmittance) (Goudriaan 1977).
 glm::dvec3 scattered_light(const Illumination& light, const glm::dvec3& mean_albedo, double sky);
 
 /// Share of the sky seen from each point (1 on top of the grass), over sky_dome().

@@ -18,22 +18,6 @@ double scene_size_m(const SceneContext& c) {
   return std::max(c.around->high_x_m() - c.around->low_x_m(), c.around->high_y_m() - c.around->low_y_m());
 }
 
-std::string camera_text(const SceneContext& c) {
-  const Camera& cam = c.input->still.camera;
-  Text t;
-  t << "camera{location " << flip(cam.position_m, c.unit) << " right x*image_width/image_height up y angle "
-    << cam.fov_deg << " look_at " << flip(cam.look_at_m, c.unit);
-  if (cam.aperture_m > 0) {
-    const glm::dvec3 view = cam.look_at_m - cam.position_m;
-    const double focus = cam.focus_m > 0 ? cam.focus_m : glm::length(view);
-    t << "\n  aperture " << cam.aperture_m * c.unit << " focal_point "
-      << flip(cam.position_m + glm::normalize(view) * focus, c.unit)
-      << " blur_samples (QUALITY=0?12:(QUALITY=1?40:90)) confidence 0.95 variance 1/4000";
-  }
-  t << "}\n";
-  return t.str();
-}
-
 }  // namespace
 
 void GroundLight::add(const GroundLight& m, double more_weight) {
@@ -78,11 +62,26 @@ glm::dvec3 backdrop_rgb(const SceneContext& c) {
   return kBackdrop * (c.day->sun_rgb * up + c.day->sky_rgb) * 0.55;
 }
 
+std::string camera_text(const Camera& cam, double unit) {
+  Text t;
+  t << "camera{location " << flip(cam.position_m, unit) << " right x*image_width/image_height up y angle "
+    << cam.fov_deg << " look_at " << flip(cam.look_at_m, unit);
+  if (cam.aperture_m > 0) {
+    const glm::dvec3 view = cam.look_at_m - cam.position_m;
+    const double focus = cam.focus_m > 0 ? cam.focus_m : glm::length(view);
+    t << "\n  aperture " << cam.aperture_m * unit << " focal_point "
+      << flip(cam.position_m + glm::normalize(view) * focus, unit)
+      << " blur_samples (QUALITY=0?12:(QUALITY=1?40:90)) confidence 0.95 variance 1/4000";
+  }
+  t << "}\n";
+  return t.str();
+}
+
 std::string atmosphere_text(const SceneContext& c) {
   Text t;
   t << "#version 3.7;\n#ifndef(QUALITY) #declare QUALITY=1; #end\n#default{finish{ambient 0 diffuse 1}}\n"
     << "global_settings{assumed_gamma 1.0 max_trace_level 10}\n"
-    << camera_text(c) << "light_source{" << flip(c.input->still.sun.direction(), 1e5 * c.unit) << " "
+    << camera_text(c.input->still.camera, c.unit) << "light_source{" << flip(c.input->still.sun.direction(), 1e5 * c.unit) << " "
     << rgb(c.day->sun_rgb) << " parallel point_at 0 media_interaction off}\n";
   if (!c.around) {  // a pale wall, into which the studio's floor runs
     const glm::dvec3 wall = backdrop_rgb(c);

@@ -48,6 +48,8 @@ struct GroundLight {
 inline const glm::dvec3 kBackdrop{0.205, 0.205, 0.195};
 glm::dvec3 backdrop_rgb(const SceneContext& c);
 
+/// camera{...}, with depth of field when there is an aperture; sampling follows QUALITY.
+std::string camera_text(const Camera& camera, double unit);
 /// Version, global settings, camera, sun, sky sphere (writes its picture), haze.
 std::string atmosphere_text(const SceneContext& c);
 /// Terrain mesh with its surroundings, and the plain to the horizon.

@@ -102,7 +102,7 @@ class FieldWriter {
       for (const Stand* s : by_orientation[o])
         boxes_ << boxes_text(c_, block, pieces, box_overlap(s->at.cell_i, s->at.cell_j), names,
                              p.per_density(), slope_factor(smoothed(plan_, s->at), to_sun_, shading),
-                             instance_matrix(s->at, c_.input->tile_m, c_.unit));
+                             instance_matrix(s->at, c_.input->tile_m, c_.unit), s->at.height_scale);
     }
   }
 

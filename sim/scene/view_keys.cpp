@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/scene/head_keys.hpp"
 #include "sim/scene/scene_keys.hpp"
 
 namespace witherfield::scene {
@@ -17,29 +18,6 @@ std::string frames_text(const std::vector<double>& frames) {
 
 bool contains(const std::vector<double>& frames, double wd) {
   return std::any_of(frames.begin(), frames.end(), [&](double f) { return std::abs(f - wd) < 1e-9; });
-}
-
-/// Text that starts with a character of `first` and goes on with those of `rest`; a-z style ranges are
-/// understood.
-struct Pattern {
-  std::string_view first, rest;
-};
-
-bool in_class(char c, std::string_view characters) {
-  for (std::size_t i = 0; i < characters.size(); ++i) {
-    if (i + 2 < characters.size() && characters[i + 1] == '-') {
-      if (c >= characters[i] && c <= characters[i + 2]) return true;
-      i += 2;
-    } else if (c == characters[i]) {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool matches(const std::string& text, const Pattern& p) {
-  return !text.empty() && in_class(text[0], p.first) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return in_class(c, p.rest); });
 }
 
 bool ends_with_png(std::string path) {
@@ -136,8 +114,7 @@ void describe_view(KeyVisitor& v, Still& still, bool terrain) {
 void describe_still(KeyVisitor& v, std::vector<Still>& stills, std::size_t index, const SceneTables& s) {
   Still& still = stills[index];
   v.text({"name", "File name of the picture: letters a-z, digits and _"}, still.name, {});
-  v.check("name", matches(still.name, {"a-z0-9_", "a-z0-9_"}),
-          [] { return "a still needs a name of letters a-z, digits and _"; });
+  check_still_name(v, still.name);
   v.check("name",
           std::none_of(stills.begin(), stills.begin() + std::ptrdiff_t(index),
                        [&](const Still& o) { return o.name == still.name; }),
@@ -162,12 +139,7 @@ void describe_output(KeyVisitor& v, OutputOptions& o) {
 
 void describe_scene(KeyVisitor& v, SceneTables& s) {
   v.text({"kind", "What is simulated"}, s.kind, {"grass"});
-  v.text({"name", "Name of the run (default: this file's name); its files go to out/<name>"}, s.name, {});
-  v.check("name", s.name.empty() || matches(s.name, {"A-Za-z0-9_", "A-Za-z0-9_.-"}), [] {
-    return "a name consists of letters, digits, '_', '.' and '-', and starts with a letter, digit or '_'";
-  });
-  v.seed({"seed", "Random numbers: the same seed gives the same run, whatever the number of threads"},
-         s.seed);
+  describe_head(v, s.name, s.seed);
   v.table({"season", "Time: the season, and how water and chlorophyll fall"},
           [&](KeyVisitor& t) { describe_season(t, s.grass); });
   v.table({"texel", "The 3-D array that the grass of one tile of ground is put into"},
