@@ -14,19 +14,18 @@ namespace witherfield::cli {
 namespace {
 
 constexpr const char* kFooter =
-    "\nA mesh passes when it is manifold, its faces agree in orientation, none is degenerate or there twice, "
-    "none\n"
-    "cuts another, and every vertex is used and finite. Open shells (a leaf) are allowed unless --closed.\n"
-    "The tests are exact; ids count from 0. Overlaps are estimates, with their standard error. Areas and "
-    "volumes\n"
-    "are in the file's own unit of length.\n"
+    "\nA mesh passes when it is manifold, its faces agree in orientation, none is degenerate or there\n"
+    "twice, no shell cuts itself, and every vertex is used and finite. Open shells (a leaf) are allowed\n"
+    "unless --closed; shells may run into each other (kernels on a cob) unless --max-overlap.\n"
+    "The tests are exact; ids count from 0. Overlaps are estimates, with their standard error. Areas\n"
+    "and volumes are in the file's own unit of length.\n"
     "\nExamples:\n"
-    "  witherfield check out/ear/fruit/fruit_0000.vtp --closed       every kernel must be a closed solid\n"
-    "  witherfield check ear.ply --max-overlap 0.02                  kernels may share 2 % of their volume\n"
-    "  witherfield check *.obj --json | jq '.meshes[].checks'        for programs\n"
-    "  witherfield check scan.stl --no-self-intersections            quicker, for very large meshes\n"
-    "\nExit codes: 0 all passed, 1 a mesh failed, 2 a mesh is damaged or of unknown kind, 3 it cannot be "
-    "opened.";
+    "  witherfield check out/ear/fruit/fruit_0000.vtp --closed     every kernel must be a closed solid\n"
+    "  witherfield check ear.ply --max-overlap 0.02                shells may share 2 % of their volume\n"
+    "  witherfield check *.obj --json | jq '.meshes[].checks'      for programs\n"
+    "  witherfield check scan.stl --no-self-intersections          quicker, for very large meshes\n"
+    "\nExit codes: 0 all passed, 1 a mesh failed, 2 a mesh is damaged or of unknown kind, 3 a file\n"
+    "cannot be opened.";
 
 struct Options {
   std::vector<std::string> files;
@@ -49,7 +48,7 @@ void conclude(const std::vector<MeshFindings>& meshes) {
   if (failed == 0) return;
   std::string why;
   for (const Finding& f : first->findings)
-    if (!f.passed()) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", f.found, f.name);
+    if (!f.passed()) why += fmt::format("{}{} ({})", why.empty() ? "" : ", ", f.name, f.found);
   throw Error(fmt::format("{} of {} meshes failed: '{}' has {}", failed, meshes.size(), first->file, why), 1);
 }
 
@@ -81,7 +80,8 @@ void add_check_command(CLI::App& app, const bool&) {
                 "Fail when two shells share more than this fraction of the smaller one's volume")
       ->type_name("FRACTION")
       ->check(CLI::Range(0.0, 1.0));
-  c->add_flag("--no-self-intersections", o->no_self_intersections, "Leave out the slowest check");
+  c->add_flag("--no-self-intersections", o->no_self_intersections,
+              "Leave out the slowest check: do faces cut each other?");
   c->callback([o] { run(*o); });
 }
 

@@ -42,7 +42,7 @@ std::vector<std::string> parts_of(const Surface& surface, const check::MeshRepor
 
 Finding shells_that(const char* name, const check::MeshReport& report, bool demanded,
                     bool (*fault)(const check::ComponentReport&)) {
-  Finding f{name, 0, demanded, "shell", {}};
+  Finding f{name, 0, demanded, "shell", "shells", {}};
   for (std::size_t k = 0; k < report.component.size(); ++k)
     if (fault(report.component[k]) && ++f.found <= kListed) f.ids.push_back({int(k)});
   return f;
@@ -50,17 +50,22 @@ Finding shells_that(const char* name, const check::MeshReport& report, bool dema
 
 std::vector<Finding> findings_of(const check::MeshReport& r, const CheckDemands& demands) {
   std::vector<Finding> all{
-      {"non-manifold edges", r.non_manifold_edges, true, "edge", listed(r.non_manifold_edge_ids)},
-      {"edges between faces of opposite orientation", r.clashing_edges, true, "edge",
+      {"non-manifold edges", r.non_manifold_edges, true, "edge", "edges", listed(r.non_manifold_edge_ids)},
+      {"edges between faces of opposite orientation", r.clashing_edges, true, "edge", "edges",
        listed(r.clashing_edge_ids)},
-      {"non-manifold vertices", r.non_manifold_vertices, true, "vertex", listed(r.non_manifold_vertex_ids)},
-      {"isolated vertices", r.isolated_vertices, true, "vertex", listed(r.isolated_ids)},
-      {"non-finite vertices", r.non_finite_vertices, true, "vertex", listed(r.non_finite_ids)},
-      {"duplicate faces", r.duplicate_faces, true, "face", listed(r.duplicate_ids)},
-      {"degenerate faces", r.degenerate_faces, true, "face", listed(r.degenerate_ids)}};
-  if (r.self_intersections_checked)
+      {"non-manifold vertices", r.non_manifold_vertices, true, "vertex", "vertices",
+       listed(r.non_manifold_vertex_ids)},
+      {"isolated vertices", r.isolated_vertices, true, "vertex", "vertices", listed(r.isolated_ids)},
+      {"non-finite vertices", r.non_finite_vertices, true, "vertex", "vertices", listed(r.non_finite_ids)},
+      {"duplicate faces", r.duplicate_faces, true, "face", "faces", listed(r.duplicate_ids)},
+      {"degenerate faces", r.degenerate_faces, true, "face", "faces", listed(r.degenerate_ids)}};
+  if (r.self_intersections_checked) {
+    const char *pair = "pair of faces", *pairs = "pairs of faces";
     all.push_back(
-        {"self-intersections", r.self_intersections, true, "pair of faces", listed(r.self_intersection_ids)});
+        {"self-intersections", r.self_intersections, true, pair, pairs, listed(r.self_intersection_ids)});
+    all.push_back({"intersections between shells", r.shell_intersections, false, pair, pairs,
+                   listed(r.shell_intersection_ids)});
+  }
   all.push_back(shells_that("open shells", r, demands.closed,
                             [](const check::ComponentReport& c) { return !c.closed; }));
   all.push_back(shells_that("inside-out shells", r, demands.closed,
@@ -74,7 +79,7 @@ void find_overlaps(const Surface& surface, const CheckDemands& demands, MeshFind
   std::stable_sort(mesh.overlaps.begin(), mesh.overlaps.end(),
                    [](const check::Overlap& a, const check::Overlap& b) { return a.fraction > b.fraction; });
   if (!demands.max_overlap) return;
-  Finding f{"overlaps beyond the limit", 0, true, "pair of shells", {}};
+  Finding f{"overlaps beyond the limit", 0, true, "pair of shells", "pairs of shells", {}};
   for (const check::Overlap& o : mesh.overlaps)
     if (o.fraction > *demands.max_overlap && ++f.found <= kListed) f.ids.push_back({int(o.a), int(o.b)});
   mesh.findings.push_back(std::move(f));

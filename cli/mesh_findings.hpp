@@ -22,8 +22,8 @@ struct CheckDemands {
 struct Finding {
   std::string name;
   std::size_t found = 0;
-  bool demanded = true;   ///< does it fail the mesh when found?
-  const char* kind = "";  ///< what the ids name: "face", "vertex", "edge", "shell"
+  bool demanded = true;                ///< does it fail the mesh when found?
+  const char *kind = "", *kinds = "";  ///< what the ids name: "face", "vertex", "edge", "shell"
   std::vector<std::vector<int>>
       ids;  ///< each a face, a vertex, the two vertices of an edge, a pair of faces, ...
   bool passed() const { return found == 0 || !demanded; }

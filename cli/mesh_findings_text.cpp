@@ -15,14 +15,11 @@ constexpr std::size_t kIdsShown = 5, kShellsShown = 10, kOverlapsShown = 5;
 
 /// "faces 1, 2, 7, ...", "edges 3-4, 8-9"
 std::string ids_text(const Finding& f) {
-  std::string text = f.kind;
-  if (const auto space = text.find(' '); space != std::string::npos)
-    text.insert(space, f.found == 1 ? "" : "s");
-  else if (f.found != 1)
-    text = text == "vertex" ? "vertices" : text + "s";
+  std::string text = f.found == 1 ? f.kind : f.kinds;
   for (std::size_t k = 0; k < std::min(f.ids.size(), kIdsShown); ++k) {
     text += k == 0 ? " " : ", ";
-    for (std::size_t i = 0; i < f.ids[k].size(); ++i) text += (i ? "-" : "") + std::to_string(f.ids[k][i]);
+    for (std::size_t i = 0; i < f.ids[k].size(); ++i)
+      text.append(i ? "-" : "").append(std::to_string(f.ids[k][i]));
   }
   return f.found > kIdsShown ? text + ", ..." : text;
 }

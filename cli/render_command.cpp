@@ -24,10 +24,11 @@ constexpr const char* kFooter =
     "  witherfield render out/hillside --scene wd_030 --look all --size 1280x720\n\n"
     "Looks (of the same simulation): texel = the volume of the texels, as participating media;\n"
     "blades = the blades themselves, as meshes. A still has the looks that its scene file names.\n"
+    "Fruit and leaves have the look object, floors the look room.\n"
     "Pictures go to DIR/images/STILL_LOOK.png. Needs the program povray (Debian package povray).";
 
 struct Options {
-  std::string folder, scene, look = "texel", size, quality = "good";
+  std::string folder, scene, look, size, quality = "good";
   int threads = 0;
 };
 
@@ -42,6 +43,13 @@ std::string names_of(const RunSummary& run) {
   return names;
 }
 
+/// texel, if the still has it: it is the quicker one.
+std::string default_look(const StillRecord& s) {
+  for (const auto& [look, file] : s.scenes)
+    if (look == "texel") return look;
+  return s.scenes.empty() ? "" : s.scenes.front().first;
+}
+
 std::vector<Job> jobs_of(const Options& o, const RunSummary& run) {
   const fs::path folder = o.folder;
   if (run.stills.empty())
@@ -53,8 +61,10 @@ std::vector<Job> jobs_of(const Options& o, const RunSummary& run) {
   for (const StillRecord& s : run.stills) {
     if (!o.scene.empty() && s.still.name != o.scene) continue;
     known = true;
+    // Without --look: the first of texel, blades ... that the still has.
+    const std::string wanted = o.look.empty() ? default_look(s) : o.look;
     for (const auto& [look, file] : s.scenes)
-      if (o.look == "all" || o.look == look) {
+      if (wanted == "all" || wanted == look) {
         const std::string name = s.still.name + "_" + look;
         jobs.push_back({name, folder / file, folder / "images" / (name + ".png")});
       }
@@ -105,9 +115,8 @@ void add_render_command(CLI::App& app, const bool& quiet) {
   c->footer(kFooter);
   c->add_option("DIR", o->folder, "Folder of a complete run")->required();
   c->add_option("--scene", o->scene, "Only the still of this name");
-  c->add_option("--look", o->look, "Which look")
-      ->check(CLI::IsMember({"texel", "blades", "all"}))
-      ->capture_default_str();
+  c->add_option("--look", o->look, "Which look (default: texel, or the only one that the still has)")
+      ->check(CLI::IsMember({"texel", "blades", "object", "room", "all"}));
   c->add_option("--size", o->size, "Size of the pictures instead of the scene's")->type_name("WxH");
   c->add_option("--quality", o->quality, "draft: quick; final: slow and smooth")
       ->check(CLI::IsMember({"draft", "good", "final"}))

@@ -6,7 +6,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/floor_run.hpp"
+#include "cli/fruit_run.hpp"
 #include "cli/grass_run.hpp"
+#include "cli/leaf_run.hpp"
 #include "sim/core/errors.hpp"
 #include "sim/scene/scene.hpp"
 
@@ -41,8 +44,11 @@ void run(Options& o, const bool& quiet) {
         "run needs a scene file, e.g. `witherfield run examples/hillside.toml`; see `witherfield run "
         "--help`");
   Console console(quiet);
-  scene::scene_kind(o.request.scene);  // the only kind so far is grass; anything else is an error there
-  run_grass(o.request, console);
+  const std::string kind = scene::scene_kind(o.request.scene);
+  if (kind == "grass") run_grass(o.request, console);
+  if (kind == "fruit") run_fruit(o.request, console);
+  if (kind == "leaf") run_leaf(o.request, console);
+  if (kind == "floor") run_floor(o.request, console);
 }
 
 }  // namespace
@@ -62,7 +68,7 @@ void add_run_command(CLI::App& app, const bool& quiet) {
   c->add_flag("--force", o->request.force, "Replace the run that is in the folder (removes its files only)")
       ->excludes(resume);
   c->add_option("--print-defaults", o->print_defaults,
-                "Print a complete commented scene of KIND (grass) and exit")
+                "Print a complete commented scene of KIND (grass, fruit, leaf, floor) and exit")
       ->type_name("KIND");
   c->callback([o, &quiet] { run(*o, quiet); });
 }

@@ -30,14 +30,17 @@ bool written_by_a_run(const std::string& name) {
       "|grass(_optics|_points)?(_variant[0-9]+)?\\.pvd"
       "|texel/texel_(v[0-9]+_)?[0-9]{4,}\\.vti|optics/optics_(v[0-9]+_)?[0-9]{4,}\\.vti"
       "|points/points_(v[0-9]+_)?[0-9]{4,}\\.vtp"
-      "|pov/.+|images/[a-z0-9_]+_(texel|blades)\\.(png|hdr))(\\.part)?");
+      "|(fruit|leaf|floor)\\.pvd|(fruit|leaf|floor)/(fruit|leaf|floor)_[0-9]{4,}\\.(vtp|vti|obj|ply)|leaf/"
+      "stage_[0-9]_[a-z]+\\.vtp|footprints\\.bin"
+      "|pov/.+|images/[a-z0-9_]+_(texel|blades|object|room)\\.(png|hdr))(\\.part)?");
   return std::regex_match(name, own);
 }
 
 /// Is this one of the folders that a run makes inside its own? (path relative to the run's folder)
 bool made_by_a_run(const fs::path& relative) {
   const std::string top = relative.begin()->string();
-  return top == "texel" || top == "optics" || top == "points" || top == "pov" || top == "images";
+  return top == "texel" || top == "optics" || top == "points" || top == "fruit" || top == "leaf" ||
+         top == "floor" || top == "pov" || top == "images";
 }
 
 }  // namespace

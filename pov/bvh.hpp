@@ -1,4 +1,4 @@
-// Rays against many triangles: a binary tree of boxes (surface area heuristic over bins; I. Wald, "On fast
+// Rays against many triangles: a tree of boxes, four a node (surface area heuristic over bins: I. Wald, "On fast
 // construction of SAH-based bounding volume hierarchies", 2007).
 #pragma once
 #include <array>
@@ -17,21 +17,24 @@ class TriangleTree {
   bool blocked(const glm::vec3& origin, const glm::vec3& direction, float reach) const;
 
  private:
+  /// Four numbers side by side (a vector type of GCC and Clang).
+  typedef float Four __attribute__((vector_size(16)));
   struct Node {
-    glm::vec3 low, high;
-    int first;  ///< of its triangles, or the right child (the left one follows the node)
-    int count;  ///< 0: an inner node
+    Four low[3], high[3];  ///< boxes of four children
+    int first[4];          ///< the child's group of triangles, or the child's node
+    int count[4];          ///< of its triangles; 0: a node; -1: nothing
   };
-  struct Corner {
-    glm::vec3 a, ab, ac;
-    int face;
+  /// Up to four triangles: a corner and the two edges from it.
+  struct Group {
+    Four a[3], ab[3], ac[3];
+    int face[4];
   };
   struct Builder;
   template <bool kAny>
   int trace(const glm::vec3& origin, const glm::vec3& direction, float reach) const;
 
   std::vector<Node> nodes_;
-  std::vector<Corner> corners_;  ///< in the tree's order
+  std::vector<Group> groups_;
 };
 
 }  // namespace witherfield::pov

@@ -27,7 +27,7 @@ glm::vec3 unit(const glm::vec3& v) {
 LitVertex middle(const LitVertex& a, const LitVertex& b) {
   return {0.5f * (a.position_m + b.position_m), unit(a.normal + b.normal), 0.5f * (a.local_m + b.local_m),
           0.5f * (a.front + b.front),           0.5f * (a.back + b.back),  0.5f * (a.through + b.through),
-          0.5f * (a.spread_m + b.spread_m)};
+          0.5f * (a.spread_m + b.spread_m), a.seen || b.seen};
 }
 
 /// Mean way of light in tissue: maize endosperm lets yellow and red wander a good millimetre, a dry husk less.
@@ -65,11 +65,8 @@ void split_faces(LitMesh& m) {
 }
 
 /// A face with the vertices in the middle of its edges (-1: none); edge k runs from corner k to corner k + 1.
-void split_face(const Face& t, const Face& mid, int tag, std::vector<Face>& faces, std::vector<int>& tags) {
-  const auto add = [&](int a, int b, int c) {
-    faces.push_back({a, b, c});
-    tags.push_back(tag);
-  };
+template <class Add>
+void split_face(const Face& t, const Face& mid, const Add& add) {
   const int halved = (mid[0] >= 0) + (mid[1] >= 0) + (mid[2] >= 0);
   if (halved == 0) return add(t[0], t[1], t[2]);
   if (halved == 3) {
@@ -108,6 +105,7 @@ bool halve_long_edges(LitMesh& m, double longest_edge_m, std::size_t max_faces) 
   for (std::size_t f = 0; f < mid.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = m.triangles[f][k], b = m.triangles[f][(k + 1) % 3];
+      if (!m.vertices[at(a)].seen && !m.vertices[at(b)].seen) continue;
       if (glm::distance(m.vertices[at(a)].position_m, m.vertices[at(b)].position_m) <= limit) continue;
       ++faces;
       const auto [entry, fresh] = middles.try_emplace(key(a, b), static_cast<int>(m.vertices.size()));
@@ -119,17 +117,21 @@ bool halve_long_edges(LitMesh& m, double longest_edge_m, std::size_t max_faces) 
     m.vertices.resize(m.vertices.size() - middles.size());
     return false;
   }
-  std::vector<Face> triangles;
-  std::vector<int> organ;
-  triangles.reserve(faces);
-  organ.reserve(faces);
-  for (std::size_t f = 0; f < mid.size(); ++f) split_face(m.triangles[f], mid[f], m.organ[f], triangles, organ);
-  m.triangles = std::move(triangles);
-  m.organ = std::move(organ);
+  LitMesh fine;
+  fine.triangles.reserve(faces);
+  for (std::size_t f = 0; f < mid.size(); ++f)
+    split_face(m.triangles[f], mid[f], [&](int a, int b, int c) {
+      fine.triangles.push_back({a, b, c});
+      fine.organ.push_back(m.organ[f]);
+      fine.base.push_back(m.base[f]);
+    });
+  m.triangles = std::move(fine.triangles);
+  m.organ = std::move(fine.organ);
+  m.base = std::move(fine.base);
   return true;
 }
 
-LitMesh make_lit_mesh(const ObjectPlacement& o, double longest_edge_m, std::size_t max_faces) {
+LitMesh place_mesh(const ObjectPlacement& o) {
   const Surface& s = *o.surface;
   const SurfaceField& diffuse = s.field("diffuse");
   const SurfaceField* organ = s.has_field("organ_id") ? &s.field("organ_id") : nullptr;
@@ -140,6 +142,7 @@ LitMesh make_lit_mesh(const ObjectPlacement& o, double longest_edge_m, std::size
   for (std::size_t f = 0; f < s.triangles.size(); ++f) {
     const auto& t = s.triangles[f];
     m.organ.push_back(organ ? int(std::lround(organ->values[organ->on_faces ? f : at(t[0])])) : 0);
+    m.base.push_back(int(f));
     for (const int v : t) look[at(v)] = &look_of(o, m.organ.back());
   }
   const auto normals = s.normal.empty() ? vertex_normals(s) : s.normal;
@@ -160,12 +163,18 @@ LitMesh make_lit_mesh(const ObjectPlacement& o, double longest_edge_m, std::size
     }
     m.vertices.push_back(x);
   }
-  if (o.facets) split_faces(m);
-  else raise_veins(m, s, o);
-  while (halve_long_edges(m, longest_edge_m, max_faces)) {
+  if (o.facets)
+    split_faces(m);
+  else
+    raise_veins(m, s, o);
+  return m;
+}
+
+void refine_mesh(LitMesh& m, const ObjectPlacement& o, double longest_edge_m, std::size_t max_faces) {
+  constexpr int kRounds = 24;  // edges that no halving shortens (coordinates of few digits left) end here
+  for (int round = 0; round < kRounds && halve_long_edges(m, longest_edge_m, max_faces); ++round) {
   }
   if (!o.facets) add_relief(m, o);
-  return m;
 }
 
 }  // namespace witherfield::pov

@@ -15,20 +15,25 @@ struct LitVertex {
   glm::vec3 front{0.0f};                     ///< reflectance of the outer (upper) side
   glm::vec3 back{0.0f}, through{0.0f};       ///< leaves: reflectance of the lower side, transmittance
   glm::vec3 spread_m{0.0f};                  ///< how far red, green, blue light wanders below the skin
+  bool seen = true;                          ///< by the camera, or close to what it sees
 };
 
 struct LitMesh {
   std::vector<LitVertex> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<int> organ;                     ///< per triangle
+  std::vector<int> base;                      ///< per triangle: the face of the placed surface that it lies on
   bool thin = false;                          ///< a leaf: both sides are seen
 };
 
 const ObjectLook& look_of(const ObjectPlacement& object, int organ);
 
-/// @param longest_edge_m edges are halved until none is longer, or a further round would exceed max_faces. Flat
-/// faces stay flat; colours and normals in between are interpolated.
-LitMesh make_lit_mesh(const ObjectPlacement& object, double longest_edge_m, std::size_t max_faces);
+/// The surface in the world, face by face, with the relief of a leaf's veins.
+LitMesh place_mesh(const ObjectPlacement& object);
+
+/// Halves edges at seen vertices until none is longer, or a further round would exceed max_faces; then adds the
+/// fine relief. Flat faces stay flat; colours and normals in between are interpolated.
+void refine_mesh(LitMesh& mesh, const ObjectPlacement& object, double longest_edge_m, std::size_t max_faces);
 
 /// One round: every edge longer than the limit gets a vertex in its middle; faces with one, two or three such edges
 /// become two, three or four. Neighbours stay joined. @returns whether anything was halved.

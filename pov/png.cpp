@@ -96,4 +96,29 @@ void write_png_grey(const std::filesystem::path& path, int width, int height, st
   write(path, {width, height, 16, PNG_COLOR_TYPE_GRAY, bytes.data(), std::size_t(width) * 2});
 }
 
+GreyPicture read_png_grey(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw IoFailure("'" + path.string() + "': no such file");
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  const auto fail = [&]() {
+    const std::string why = image.message;
+    png_image_free(&image);
+    throw InvalidInput("'" + path.string() + "' cannot be read as a PNG picture: " + why);
+  };
+  if (!png_image_begin_read_from_file(&image, path.c_str())) fail();
+  image.format = PNG_FORMAT_GA;
+  std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image));
+  if (!png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr)) fail();
+  GreyPicture out{int(image.width), int(image.height), {}};
+  out.grey.resize(std::size_t(out.width) * std::size_t(out.height));
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const std::size_t from =
+          2 * (std::size_t(out.height - 1 - y) * std::size_t(out.width) + std::size_t(x));
+      out.grey[std::size_t(y) * std::size_t(out.width) + std::size_t(x)] =
+          float(bytes[from]) / 255 * float(bytes[from + 1]) / 255;
+    }
+  return out;
+}
+
 }  // namespace witherfield::pov

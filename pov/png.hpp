@@ -21,4 +21,12 @@ void write_png_linear(const std::filesystem::path& path, int width, int height,
 /// 16-bit grey, linear, clamped to [0, 1].
 void write_png_grey(const std::filesystem::path& path, int width, int height, std::span<const float> grey);
 
+/// A picture as grey values, 0..1 as stored (no gamma is undone; transparent = 0), rows from the bottom up.
+struct GreyPicture {
+  int width = 0, height = 0;
+  std::vector<float> grey;
+};
+/// @throws IoFailure (cannot read), InvalidInput (no PNG, or damaged), naming the file.
+GreyPicture read_png_grey(const std::filesystem::path& path);
+
 }  // namespace witherfield::pov

@@ -32,6 +32,9 @@ std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
       return {"+AM2", "+A0.1", "+R2", "-J"};
     return {"-A"};
   }
+  // Awns and margins are thinner than a pixel and all else is cheap: every pixel gets all its samples.
+  if (head.look == "object")
+    return {"+AM1", "+A0.0", quality == Quality::draft ? "+R2" : quality == Quality::good ? "+R3" : "+R5", "-J"};
   switch (quality) {
     case Quality::draft:
       return {"+AM1", "+A0.3", "+R2", "-J"};

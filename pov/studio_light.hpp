@@ -1,23 +1,54 @@
-// The photographer's studio around an object: paper that sweeps up behind it, a softbox as key light, the room's
-// light, a rim light from behind.
+// The light of a photographer's studio: a softbox as key light, a smaller one from behind as rim light, the bright
+// room (or the sky), paper below; and what of it reaches the vertices of meshes and the nodes of the paper.
+//
+// All light that is not mirrored is worked out here, at points, by rays: so tissue can spread it below its skin, leaves
+// can let it through, it is free of noise, and POV-Ray needs no more than mirror images and sharp edges for its part.
 #pragma once
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "pov/lit_mesh.hpp"
 #include "pov/object_scene.hpp"
+#include "pov/paper.hpp"
+#include "pov/seen.hpp"
 
 namespace witherfield::pov {
 
-/// Where things stand, in POV-Ray's axes and units.
-struct Studio {
-  glm::dvec3 center{0.0};  ///< middle of the objects
-  double radius = 1;       ///< of the ball around them
-  double ground = 0;       ///< height of the paper
-  glm::dvec3 to_key{0, 1, 0}, to_rim{0, 1, 0}, away{0, 0, 1};  ///< unit; away: level, from the camera to the back
+/// A glowing square.
+struct Softbox {
+  glm::dvec3 center_m{0.0}, side_a_m{0.0}, side_b_m{0.0}, toward{0, 0, 1};  ///< toward: where it shines, unit
+  glm::dvec3 radiance{0.0};
+  glm::dvec3 colour{0.0};  ///< irradiance over pi at the objects' middle, facing it
 };
-Studio make_studio(const ObjectSceneInput& input, double unit);
 
-/// Global settings, lights, softboxes, backdrop.
-std::string studio_light_text(const ObjectSceneInput& input, const Studio& studio);
+struct Studio {
+  glm::dvec3 center_m{0.0};
+  double radius_m = 1;  ///< of the ball around the objects
+  std::vector<Softbox> boxes;
+  Paper paper;          ///< empty in front of the sky
+  glm::dvec3 paper_rgb{0.8};
+  glm::dvec3 zenith{1.0}, horizon{0.5}, nadir{0.3};  ///< radiance of the room
+
+  glm::dvec3 room(const glm::dvec3& direction) const;  ///< radiance from a unit direction
+};
+Studio make_studio(const ObjectSceneInput& input);
+
+/// Radiance that leaves every vertex toward any side (all is diffuse): above or outside, and below (leaves).
+struct Glow {
+  std::vector<glm::vec3> front, back;
+};
+struct StudioGlow {
+  std::vector<Glow> meshes;
+  std::vector<glm::vec3> paper;  ///< per node
+};
+/// Lights meshes and paper; what is not seen gets fewer rays. Same bits for any number of threads.
+/// @param tree over the meshes as placed (LitMesh::base).
+StudioGlow light_studio(const Studio& studio, const View& view, const SceneTree& tree, std::span<const LitMesh> meshes);
+
+/// Irradiance spread over a mesh by diffusion: (M + l^2 L) s = M e with the lengths of its vertices, mass matrix M and
+/// cotangent Laplacian L. Keeps the total of M e where the length is constant.
+std::vector<glm::vec3> spread_light(const LitMesh& mesh, std::vector<glm::vec3> irradiance);
 
 }  // namespace witherfield::pov

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/core/blade_ribbons.hpp"
+#include "sim/core/floor_field.hpp"
 #include "sim/core/placement.hpp"
 #include "sim/core/point_set.hpp"
 #include "sim/core/texel_grid.hpp"
@@ -51,6 +52,10 @@ ValueRanges write_points_vtp(const std::filesystem::path& file, const PointSet& 
 /// turns), lod per cell. true_elevation_m has one value per vertex.
 void write_terrain_vtp(const std::filesystem::path& file, const TriMesh& mesh,
                        const std::vector<double>& true_elevation_m, const Placement& placement);
+
+/// All channels of a floor as cell data of a flat image, metres, z = 0. Float32 rounded to 10 mantissa bits.
+ValueRanges write_floor_vti(const std::filesystem::path& file, const FloorField& floor, const Stamp& stamp,
+                            Compression compression = Compression::lz4);
 
 /// .pvd time series. Entries are (days, path relative to the .pvd).
 void write_pvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& entries);

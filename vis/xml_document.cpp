@@ -46,7 +46,7 @@ std::string head(const XmlDocument& d) {
       d.type, compressor(d.compression), d.type_attributes, field_data(d), d.piece_attributes);
   std::uint64_t offset = 0;
   for (const XmlSection& section : d.sections) {
-    xml += fmt::format("      <{}>\n", section.tag);
+    xml += fmt::format("      <{}{}>\n", section.tag, section.attributes);
     for (const XmlArray& a : section.arrays) {
       xml += fmt::format(
           "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "

@@ -24,6 +24,7 @@ struct XmlArray {
 struct XmlSection {
   std::string tag;
   std::vector<XmlArray> arrays;
+  std::string attributes = {};  ///< such as which array holds the normals: R"( Normals="normal")"
 };
 
 struct XmlDocument {

@@ -54,9 +54,10 @@ void Surface::validate() const {
   if (!normal.empty()) check_length(normal.size(), position_m.size(), "normal");
   if (!uv.empty()) check_length(uv.size(), position_m.size(), "uv");
   for (const SurfaceField& f : fields)
-    check_length(f.values.size(),
-                 (f.on_faces ? triangles.size() : position_m.size()) * std::size_t(field_spec(f.name).components),
-                 "field '" + f.name + "'");
+    check_length(
+        f.values.size(),
+        (f.on_faces ? triangles.size() : position_m.size()) * std::size_t(field_spec(f.name).components),
+        "field '" + f.name + "'");
 }
 
 std::vector<glm::dvec3> vertex_normals(const Surface& s) {
@@ -103,6 +104,46 @@ void append(Surface& whole, const Surface& part) {
   }
 }
 
+Surface keep_faces(const Surface& s, const std::function<bool(std::size_t)>& keep) {
+  std::vector<std::size_t> faces, vertices;
+  std::vector<int> number(s.position_m.size(), -1);
+  for (std::size_t f = 0; f < s.triangles.size(); ++f) {
+    if (!keep(f)) continue;
+    faces.push_back(f);
+    for (const int v : s.triangles[f]) number[std::size_t(v)] = 0;
+  }
+  for (std::size_t v = 0; v < number.size(); ++v)
+    if (number[v] == 0) {
+      number[v] = int(vertices.size());
+      vertices.push_back(v);
+    }
+  const auto picked = [&](const auto& values) {
+    auto out = values;
+    out.clear();
+    if (!values.empty())
+      for (const std::size_t v : vertices) out.push_back(values[v]);
+    return out;
+  };
+  Surface out;
+  out.position_m = picked(s.position_m);
+  out.normal = picked(s.normal);
+  out.uv = picked(s.uv);
+  for (const std::size_t f : faces) {
+    auto t = s.triangles[f];
+    for (int& v : t) v = number[std::size_t(v)];
+    out.triangles.push_back(t);
+  }
+  for (const SurfaceField& f : s.fields) {
+    const auto components = std::ptrdiff_t(field_spec(f.name).components);
+    SurfaceField& to = out.fields.emplace_back(SurfaceField{f.name, f.on_faces, {}});
+    for (const std::size_t i : f.on_faces ? faces : vertices) {
+      const auto at = f.values.begin() + std::ptrdiff_t(i) * components;
+      to.values.insert(to.values.end(), at, at + components);
+    }
+  }
+  return out;
+}
+
 TriMesh to_tri_mesh(const Surface& s, bool split_non_manifold) {
   TriMesh mesh;
   mesh.reserve(s.position_m.size(), s.triangles.size() * 3 / 2, s.triangles.size());
@@ -114,7 +155,8 @@ TriMesh to_tri_mesh(const Surface& s, bool split_non_manifold) {
   // OpenMesh prints a complaint when it is given a complex edge: ask first.
   const auto fits = [&](const std::array<int, 3>& t) {
     for (int k = 0; k < 3; ++k) {
-      const auto a = mesh.vertex_handle(unsigned(t[std::size_t(k)])), b = mesh.vertex_handle(unsigned(t[std::size_t(k + 1) % 3]));
+      const auto a = mesh.vertex_handle(unsigned(t[std::size_t(k)])),
+                 b = mesh.vertex_handle(unsigned(t[std::size_t(k + 1) % 3]));
       if (a == b || !mesh.is_boundary(a)) return false;
       const auto edge = mesh.find_halfedge(a, b);
       if (edge.is_valid() && !mesh.is_boundary(edge)) return false;

@@ -32,6 +32,9 @@ class JsonWriter : public KeyVisitor {
     for (const auto& [x, y] : keys) array.push_back(std::vector<double>{x, y});
     put(key, array);
   }
+  void pairs(const Key& key, CurveKeys& values, const Limits&, const Limits&) override {
+    curve(key, values, {}, Shape::rising);
+  }
   void preset(const Key&, const Choices&, std::string_view,
               const std::function<void(const std::string&)>&) override {}
   void table(const Key& key, const Body& body) override {
@@ -77,6 +80,7 @@ class NameCollector : public KeyVisitor {
   void wholes(const Key& key, std::span<int>, const Limits&) override { add(key); }
   void list(const Key& key, std::vector<double>&, const Limits&, Order) override { add(key); }
   void curve(const Key& key, CurveKeys&, const Limits&, Shape) override { add(key); }
+  void pairs(const Key& key, CurveKeys&, const Limits&, const Limits&) override { add(key); }
   void preset(const Key& key, const Choices&, std::string_view,
               const std::function<void(const std::string&)>&) override {
     add(key);

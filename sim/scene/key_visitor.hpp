@@ -50,6 +50,8 @@ class KeyVisitor {
   virtual void wholes(const Key&, std::span<int> values, const Limits&) = 0;
   virtual void list(const Key&, std::vector<double>& values, const Limits&, Order) = 0;
   virtual void curve(const Key&, CurveKeys& keys, const Limits& value_limits, Shape) = 0;
+  /// Points in a plane, or keys of a curve over something else than wd: any number of pairs.
+  virtual void pairs(const Key&, CurveKeys& values, const Limits& first, const Limits& second) = 0;
   /// A named set of values for the keys that follow; `preset` "" = none unless asked for. Not part of the
   /// resolved scene.
   virtual void preset(const Key&, const Choices& names, std::string_view preset,

@@ -56,6 +56,10 @@ class Printer : public KeyVisitor {
     line(key, limits_text(limits) + (shape == Shape::falling ? ", not rising" : ", not falling"),
          bracketed(keys, [](const auto& k) { return fmt::format("[{}, {}]", k.first, k.second); }));
   }
+  void pairs(const Key& key, CurveKeys& values, const Limits& first, const Limits& second) override {
+    line(key, "pairs of " + limits_text(first) + " and " + limits_text(second),
+         bracketed(values, [](const auto& k) { return fmt::format("[{}, {}]", k.first, k.second); }));
+  }
   void preset(const Key& key, const Choices& names, std::string_view preset,
               const std::function<void(const std::string&)>&) override {
     line(key, quoted_list(names, "or"), quoted(preset.empty() ? names.front() : std::string(preset)),

@@ -113,6 +113,7 @@ class Reader : public KeyVisitor {
     }
   }
   void curve(const Key& key, CurveKeys& keys, const Limits& limits, Shape shape) override;
+  void pairs(const Key& key, CurveKeys& values, const Limits& first, const Limits& second) override;
   void preset(const Key& key, const Choices& names, std::string_view preset,
               const std::function<void(const std::string&)>& apply) override {
     const toml::node* node = find(key);
@@ -257,6 +258,22 @@ void Reader::curve(const Key& key, CurveKeys& keys, const Limits& limits, Shape 
                          shape == Shape::falling ? "rise" : "fall", value, value_before));
     }
     keys.emplace_back(wd, value);
+  }
+}
+
+void Reader::pairs(const Key& key, CurveKeys& values, const Limits& first, const Limits& second) {
+  const toml::node* node = find(key);
+  if (!node) return;
+  const char* form = "[[a, b], [a, b], ...]";
+  const toml::array& array = array_at(*node, full(key.name), std::string("a list of pairs, ") + form);
+  values.clear();
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const std::string name = element(key, i);
+    const toml::array* pair = array[i].as_array();
+    if (!pair || pair->size() != 2)
+      fail(array[i], name, std::string("must be a pair of numbers; the key takes ") + form);
+    const double a = number_at((*pair)[0], name + "[0]", first);
+    values.emplace_back(a, number_at((*pair)[1], name + "[1]", second));
   }
 }
 

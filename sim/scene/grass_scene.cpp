@@ -1,25 +1,18 @@
-#include "sim/scene/scene.hpp"
-
 #include <filesystem>
 
 #include "sim/core/errors.hpp"
 #include "sim/scene/key_writers.hpp"
+#include "sim/scene/kinds.hpp"
+#include "sim/scene/scene.hpp"
 #include "sim/scene/scene_keys.hpp"
 #include "sim/scene/toml_reader.hpp"
 
 namespace witherfield::scene {
 namespace {
 
-const Choices kKinds{"grass"};
-
 std::vector<std::string> all_keys() {
   SceneTables blank;
   return key_paths([&](KeyVisitor& v) { describe_scene(v, blank); });
-}
-
-std::string resolved_path(const std::string& path, const std::filesystem::path& folder) {
-  if (path.empty() || std::filesystem::path(path).is_absolute()) return path;
-  return (folder / path).lexically_normal().string();
 }
 
 }  // namespace
@@ -59,19 +52,8 @@ GrassScene to_scene(const SceneTables& t) {
   return scene;
 }
 
-std::string scene_kind(const std::string& path) {
-  const TomlFile file(path);
-  const std::string kind = file.top_text("kind");
-  if (kind.empty())
-    throw InvalidInput(file.where("kind") +
-                       ": missing; a scene file starts with kind = " + quoted_list(kKinds, "or"));
-  for (const std::string& known : kKinds)
-    if (kind == known) return kind;
-  throw InvalidInput(file.where("kind") + " = \"" + kind + "\": must be " + quoted_list(kKinds, "or"));
-}
-
 GrassScene load_grass_scene(const std::string& path, bool preview) {
-  scene_kind(path);
+  expect_kind(path, "grass");
   const TomlFile file(path);
   SceneTables tables;
   file.read([&](KeyVisitor& v) { describe_scene(v, tables); }, all_keys());
@@ -91,9 +73,7 @@ GrassScene load_grass_scene(const std::string& path, bool preview) {
   return scene;
 }
 
-std::string print_defaults(const std::string& kind) {
-  if (kind != kKinds.front())
-    throw InvalidInput("unknown kind of scene '" + kind + "'; known: " + quoted_list(kKinds, "and"));
+std::string grass_defaults() {
   // One entry of each table that may be left out or repeated, as an example; they are printed commented out.
   SceneTables example;
   example.name = "my_scene";
@@ -104,10 +84,7 @@ std::string print_defaults(const std::string& kind) {
   example.stills.resize(1);
   example.stills[0].name = "wd_030";
   example.stills[0].wd = 0.3;
-  return "# A complete scene for `witherfield run`: every key with its meaning, range, unit and default.\n"
-         "# Keep what you change, delete the rest. wd is the weathering degree: 0 = fresh, 1 = end of the "
-         "season.\n\n" +
-         commented_toml([&](KeyVisitor& v) { describe_scene(v, example); });
+  return commented_toml([&](KeyVisitor& v) { describe_scene(v, example); });
 }
 
 std::string resolved_json(const GrassScene& scene) {

@@ -1,0 +1,237 @@
+#include "cli/floor_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/console.hpp"
+#include "pov/png.hpp"
+#include "pov/room_scene.hpp"
+#include "sim/core/errors.hpp"
+#include "sim/floor/simulate.hpp"
+#include "sim/scene/scene.hpp"
+#include "vis/atomic_file.hpp"
+#include "vis/writers.hpp"
+
+namespace witherfield::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// The treads of a flight laid out in its plan, one behind the other; a room's floor as it is.
+FloorField in_plan(std::span<const FloorField> floors) {
+  FloorField whole = floors.front();
+  for (const FloorField& tread : floors.subspan(1)) {
+    whole.ny += tread.ny;
+    for (FloorChannel& channel : whole.channels) {
+      const std::vector<float>& more = tread.at(channel.name);
+      channel.values.insert(channel.values.end(), more.begin(), more.end());
+    }
+  }
+  return whole;
+}
+
+pov::FloorMaterial material_of(const floor::MaterialOptions& m) {
+  const std::string top = m.layers.empty() ? "" : m.layers.front().name;
+  const auto has = [&](const char* word) { return top.find(word) != std::string::npos; };
+  if (has("varnish")) return pov::FloorMaterial::wood_varnished;
+  if (has("oak") || has("pine") || has("wood")) return pov::FloorMaterial::wood;
+  if (has("pvc") || has("linoleum")) return pov::FloorMaterial::vinyl;
+  if (has("porcelain") || has("tile")) return pov::FloorMaterial::tiles;
+  return pov::FloorMaterial::stone;
+}
+
+pov::ObstacleKind obstacle_of(const std::string& name) {
+  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
+  if (has("column") || has("pillar")) return pov::ObstacleKind::column;
+  return has("bench") ? pov::ObstacleKind::bench : pov::ObstacleKind::desk;
+}
+
+/// The user's own soles.
+void load_masks(scene::FloorScene& s) {
+  for (const std::string& file : s.mask_files) {
+    const pov::GreyPicture picture = pov::read_png_grey(file);
+    if (picture.width != picture.height || picture.width % 2 == 0)
+      throw InvalidInput(
+          fmt::format("footprints.masks: '{}' is {} x {} pixels; a sole's picture must be square with an odd "
+                      "number of pixels, so that it has a middle to turn about",
+                      file, picture.width, picture.height));
+    s.floor.footprints.masks.push_back(
+        {fs::path(file).stem().string(), picture.width, s.mask_pixels_per_m, picture.grey});
+  }
+}
+
+class FloorRun : public RunStages {
+ public:
+  FloorRun(scene::FloorScene scene, RunFolder& folder, RunRecord& record, Console& console)
+      : scene_(std::move(scene)),
+        folder_(folder),
+        record_(record),
+        console_(console),
+        clock_(record.stages) {}
+
+  void prepare() override { floor::validate(scene_.floor); }
+
+  void simulate(std::vector<FrameRecord>) override {
+    clock_.start("walk, wear and write");
+    if (scene_.output.fields) make_folder("floor");
+    const Progress bar = console_.progress();
+    const floor::FloorReport report = floor::simulate(
+        scene_.floor, [&](const floor::FloorFrame& frame) { take(frame); },
+        [&](std::string_view, double fraction) { bar("walking", fraction); });
+    bar("walking", 1);
+    std::vector<std::pair<double, std::string>> entries;
+    for (const FrameRecord& f : record_.frames)
+      if (!f.file("floor").empty()) entries.emplace_back(f.time_days, f.file("floor"));
+    if (!entries.empty()) vis::write_pvd(folder_.path() / "floor.pvd", entries);
+    if (scene_.output.footprints) write_footprints();
+    tell(report);
+    clock_.start("");
+  }
+
+  void write_pictures() override {
+    if (!scene_.output.pov || scene_.stills.empty()) return;
+    clock_.start("write POV-Ray scenes");
+    const Progress bar = console_.progress();
+    for (const scene::RoomStill& still : scene_.stills) {
+      check_interrupted();
+      const std::string stage = "scene " + still.still.name;
+      const Progress progress = [&](std::string_view, double fraction) { bar(stage, fraction); };
+      const std::vector<FloorField>& floors = kept_.at(key_of(still.visits_share));
+      const fs::path file =
+          scene_.floor.stairs
+              ? pov::write_stair_scene(folder_.path() / "pov", stairs(still, floors), progress)
+              : pov::write_room_scene(folder_.path() / "pov", room(still, floors.front()), progress);
+      bar(stage, 1);
+      StillRecord record{still.still, {}};
+      record.still.looks = {"room"};
+      record.still.wd = still.visits_share;
+      record.scenes.emplace_back("room", file.lexically_relative(folder_.path()).generic_string());
+      record_.stills.push_back(std::move(record));
+    }
+    clock_.start("");
+  }
+
+ private:
+  static long key_of(double share) { return std::lround(share * 1e9); }
+
+  void make_folder(const char* name) {
+    std::error_code error;
+    fs::create_directories(folder_.path() / name, error);
+    if (error)
+      throw IoFailure("cannot make the folder '" + (folder_.path() / name).string() +
+                      "': " + error.message());
+  }
+
+  void take(const floor::FloorFrame& frame) {
+    check_interrupted();
+    const double share = scene_.floor.frames[std::size_t(frame.index)];
+    FrameRecord r;
+    r.index = frame.index;
+    r.wd = share;
+    r.time_days = frame.time_days;
+    r.numbers = {{"visits", double(frame.visits)}, {"footfalls_total", frame.footfalls_total}};
+    if (scene_.output.fields) {
+      r.files.emplace_back("floor", fmt::format("floor/floor_{:04}.vti", frame.index));
+      r.ranges = vis::write_floor_vti(
+          folder_.path() / r.files.back().second, in_plan(frame.floors), {frame.time_days, share},
+          scene_.output.compression == "zlib" ? vis::Compression::zlib : vis::Compression::lz4);
+    }
+    record_.frames.push_back(std::move(r));
+    vis::write_whole_file(folder_.partial_file(), partial_json(record_.frames));
+    for (const scene::RoomStill& still : scene_.stills)
+      if (scene_.output.pov && key_of(still.visits_share) == key_of(share))
+        kept_[key_of(share)].assign(frame.floors.begin(), frame.floors.end());
+  }
+
+  void write_footprints() {
+    vis::AtomicFile file(folder_.path() / "footprints.bin");
+    floor::walk(scene_.floor, [&](std::span<const floor::Footprint> prints) {
+      check_interrupted();
+      file.write(prints.data(), prints.size_bytes());
+    });
+    file.commit();
+  }
+
+  pov::FloorLook look(const scene::RoomStill& still) const {
+    pov::FloorLook look;
+    look.material = material_of(scene_.floor.material);
+    look.pattern = scene_.floor.material.pattern;
+    look.relief_scale = still.relief_scale;
+    return look;
+  }
+
+  pov::RoomSceneInput room(const scene::RoomStill& still, const FloorField& floor) const {
+    const floor::RoomOptions& r = scene_.floor.room;
+    pov::RoomSceneInput in;
+    in.still = still.still;
+    in.floor = &floor;
+    in.look = look(still);
+    in.outline_m = r.outline_m;
+    in.wall_height_m = scene_.wall_height_m;
+    in.haze = still.haze;
+    for (const floor::Door& d : r.doors)
+      in.openings.push_back({pov::OpeningKind::door, d.a_m, d.b_m, 0, 2.03});
+    for (const scene::RoomWindow& w : scene_.windows)
+      in.openings.push_back({pov::OpeningKind::window, w.a_m, w.b_m, w.sill_m, w.height_m});
+    const double day = still.visits_share * scene_.floor.crowd.days;
+    for (std::size_t i = 0; i < r.obstacles.size(); ++i)
+      if (r.obstacles[i].from_day <= day && day <= r.obstacles[i].until_day)
+        in.obstacles.push_back(
+            {obstacle_of(r.obstacles[i].name), r.obstacles[i].outline_m, scene_.obstacle_height_m.at(i)});
+    for (const floor::Picture& p : r.pictures) in.pictures.push_back({p.at_m});
+    return in;
+  }
+
+  pov::StairSceneInput stairs(const scene::RoomStill& still, const std::vector<FloorField>& treads) const {
+    const floor::StairOptions& s = *scene_.floor.stairs;
+    pov::StairSceneInput in;
+    in.still = still.still;
+    in.treads = treads;
+    in.look.relief_scale = still.relief_scale;
+    in.look.material = material_of(scene_.floor.material);
+    in.going_m = s.going_m;
+    in.rise_m = s.rise_m;
+    in.width_m = s.width_m;
+    return in;
+  }
+
+  void tell(const floor::FloorReport& r) {
+    record_.checks.push_back({"walkers_stuck", double(r.walk.stuck), 0, "walkers"});
+    record_.checks.push_back({"not_finite", r.all_finite ? 0.0 : 1.0, 0, ""});
+    record_.checks.push_back({"not_monotone", r.monotone ? 0.0 : 1.0, 0, ""});
+    record_.details.emplace_back("walk", Json{{"visits", r.walk.visits},
+                                              {"footprints", r.walk.footprints},
+                                              {"way_m", r.walk.way_m},
+                                              {"stuck", r.walk.stuck},
+                                              {"neighbour_difference_max", r.neighbour_difference_max}}
+                                             .dump());
+    for (const floor::Stuck& s : r.walk.stuck_first)
+      console_.note(fmt::format("visit {} was stuck at ({:.2f}, {:.2f}) m on day {:.1f}", s.visit, s.at_m.x,
+                                s.at_m.y, s.day));
+  }
+
+  scene::FloorScene scene_;
+  RunFolder& folder_;
+  RunRecord& record_;
+  Console& console_;
+  StageClock clock_;
+  std::map<long, std::vector<FloorField>> kept_;
+};
+
+}  // namespace
+
+void run_floor(const RunRequest& request, Console& console) {
+  scene::FloorScene scene = scene::load_floor_scene(request.scene, request.preview);
+  load_masks(scene);
+  const std::string name = scene.name, json = scene::resolved_json(scene);
+  carry_out(request, "floor", name, json, console, [&](RunFolder& folder, RunRecord& record) {
+    return std::make_unique<FloorRun>(std::move(scene), folder, record, console);
+  });
+}
+
+}  // namespace witherfield::cli

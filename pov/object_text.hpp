@@ -1,0 +1,24 @@
+// The words of an object scene: studio, meshes, finishes.
+#pragma once
+#include <span>
+#include <string>
+
+#include "pov/face_atlas.hpp"
+#include "pov/studio_light.hpp"
+
+namespace witherfield::pov {
+
+/// Radiance that is full scale in the pictures of a scene.
+inline constexpr double kFullGlow = 4;
+
+/// Global settings, the room that shiny skin mirrors, softboxes as mirror images and as lights of highlights.
+std::string studio_text(const Studio& studio, double unit);
+
+/// mesh2 of some faces, in POV-Ray's axes and units. The flip mirrors space, so two corners change places: what
+/// was counter-clockwise from outside stays outside for POV-Ray.
+std::string mesh2_text(const LitMesh& mesh, std::span<const int> faces, const FaceAtlas& atlas, double unit);
+
+/// "texture{...} [interior_texture{...}] [interior{...}]" of an organ whose glow is in declared pigments.
+std::string look_text(const ObjectLook& look, const std::string& front, const std::string& back);
+
+}  // namespace witherfield::pov

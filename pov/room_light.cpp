@@ -1,0 +1,72 @@
+// The light of a room. The sky's own light comes as area lights in the windows (radiance times area, over the cosine), so
+// the sky itself is hidden from radiosity: it would be counted twice, and few of its rays would find the window.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "pov/room_walls.hpp"
+#include "pov/text.hpp"
+
+namespace witherfield::pov {
+namespace {
+
+const glm::dvec3 kSun{13.0, 11.6, 9.4};      // irradiance over pi of a surface that faces it
+const glm::dvec3 kSky{2.1, 2.5, 3.1};   // radiance; about a fifth of the sun, as on a clear day
+const glm::dvec3 kLamp{1.0, 0.86, 0.68};
+
+std::string rgb(const glm::dvec3& c) { return (Text() << "rgb" << c).str(); }
+
+/// Light that a glowing rectangle sends: POV-Ray's 2 I / (1 + (d / f)^2) is L A / (pi d^2) far away for I = L and
+/// f^2 = A / (2 pi).
+std::string glowing_text(const glm::dvec3& at, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& toward,
+                         const glm::dvec3& radiance, int cells, double unit) {
+  const double area = glm::length(a) * glm::length(b);
+  Text t;
+  t << "light_source{" << at * unit << " " << rgb(radiance) << " area_light " << a * unit << "," << b * unit << "," << cells
+    << "," << cells << " adaptive 1 JITTER() spotlight radius 35 falloff 90 tightness 1 point_at " << (at + toward) * unit
+    << " fade_distance " << std::sqrt(area / (2 * 3.14159265)) * unit
+    << " fade_power 2 media_interaction off media_attenuation off}\n";
+  return t.str();
+}
+
+}  // namespace
+
+std::string room_light_text(const RoomSceneInput& in, const std::vector<Wall>& walls, double unit) {
+  const glm::dvec3 sun = in.still.sun.direction();
+  const glm::dvec3 toward{sun.x, sun.z, sun.y};
+  glm::dvec2 low = in.outline_m[0], high = low;
+  for (const glm::dvec2& p : in.outline_m) low = glm::min(low, p), high = glm::max(high, p);
+  const glm::dvec2 mid = 0.5 * (low + high), half = 0.5 * (high - low);
+  const double far = 1000 * unit;
+  const glm::dvec3 side = glm::normalize(glm::cross(toward, glm::dvec3(0, 1, 0.01))), up = glm::cross(side, toward);
+  Text t;
+  // The sun's disc is 0.53 degrees wide.
+  t << "light_source{" << (toward * far + glm::dvec3(mid.x, 0, mid.y) * unit) << " " << rgb(kSun) << " parallel point_at "
+    << glm::dvec3(mid.x, 0, mid.y) * unit << " area_light " << side * (0.0093 * far) << "," << up * (0.0093 * far)
+    << ",3,3 adaptive 1 circular JITTER()}\n";
+  t << "sphere{0," << 4 * far << " hollow no_shadow no_radiosity pigment{gradient y color_map{[0 " << rgb({0.30, 0.33, 0.20})
+    << "][0.497 " << rgb({0.45, 0.48, 0.32}) << "][0.503 " << rgb(kSky * glm::dvec3(1.35, 1.2, 1.05)) << "][0.75 "
+    << rgb(kSky) << "][1 " << rgb(kSky * 0.7) << "]} translate -0.5*y scale " << 8 * far
+    << "} finish{emission 1 diffuse 0 ambient 0}}\n";
+  for (const Wall& w : walls)
+    for (const WallOpening& o : w.openings) {
+      if (o.kind != OpeningKind::window) continue;
+      const double width = o.b_m.x - o.a_m.x;
+      const glm::dvec2 p = w.a_m + w.along * (0.5 * (o.a_m.x + o.b_m.x)) - w.out * 0.06;
+      t << glowing_text({p.x, o.sill_m + 0.5 * o.height_m, p.y}, glm::dvec3(w.along.x, 0, w.along.y) * (0.9 * width),
+                        {0, 0.9 * o.height_m, 0}, {-w.out.x, -0.25, -w.out.y}, kSky, 4, unit);
+    }
+  if (in.lamps > 0) {
+    const double size = 0.5 * std::min(half.x, half.y);
+    t << glowing_text({mid.x, in.wall_height_m - 0.02, mid.y}, {size, 0, 0}, {0, 0, size}, {0, -1, 0.001},
+                      kLamp * (in.lamps * 6.0), 3, unit);
+  }
+  if (in.haze > 0)
+    t << "box{" << glm::dvec3(low.x - 0.2, -0.1, low.y - 0.2) * unit << ","
+      << glm::dvec3(high.x + 0.2, in.wall_height_m + 0.1, high.y + 0.2) * unit
+      << " hollow pigment{rgbt 1} interior{media{method 3 samples 24,24 jitter 0 scattering{5,rgb " << 0.030 * in.haze / unit
+      << " eccentricity 0.35}}}}\n";
+  return t.str();
+}
+
+}  // namespace witherfield::pov

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "sim/scene/floor_keys.hpp"
+#include "sim/scene/key_writers.hpp"
+#include "sim/scene/kinds.hpp"
+#include "sim/scene/toml_reader.hpp"
+
+namespace witherfield::scene {
+namespace {
+
+constexpr std::int64_t kPreviewVisits = 400;
+constexpr double kPreviewPixelsPerM = 50;
+constexpr int kPreviewPx = 240;
+
+void shrink_to_preview(FloorScene& s) {
+  floor::FloorOptions& o = s.floor;
+  if (o.crowd.visits > kPreviewVisits) {
+    o.crowd.visits_each *= double(o.crowd.visits) / double(kPreviewVisits);
+    o.crowd.visits = kPreviewVisits;
+  }
+  o.footprints.pixels_per_m = std::min(o.footprints.pixels_per_m, kPreviewPixelsPerM);
+  o.footprints.mask_size = 0;
+  for (RoomStill& still : s.stills) {
+    const double factor =
+        std::min(1.0, double(kPreviewPx) / std::max(still.still.width_px, still.still.height_px));
+    still.still.width_px = std::max(16, int(still.still.width_px * factor));
+    still.still.height_px = std::max(16, int(still.still.height_px * factor));
+  }
+}
+
+}  // namespace
+
+FloorScene load_floor_scene(const std::string& path, bool preview) {
+  expect_kind(path, "floor");
+  const TomlFile file(path);
+  FloorTables blank, tables;
+  file.read([&](KeyVisitor& v) { describe_floor_scene(v, tables); },
+            key_paths([&](KeyVisitor& v) { describe_floor_scene(v, blank); }));
+  FloorScene& scene = tables.scene;
+  const std::filesystem::path place(path);
+  if (scene.name.empty()) scene.name = place.stem().string();
+  for (std::string& mask : scene.mask_files) mask = resolved_path(mask, place.parent_path());
+  if (preview) shrink_to_preview(scene);
+  return scene;
+}
+
+std::string floor_defaults() {
+  FloorTables example;
+  FloorScene& s = example.scene;
+  s.name = "my_floor";
+  s.floor.room.outline_m = {{0, 0}, {6, 0}, {6, 5}, {0, 5}};
+  s.floor.room.doors.push_back({"door", {2.5, 0}, {3.5, 0}, 1});
+  s.floor.room.obstacles.resize(1);
+  s.floor.room.places.resize(1);
+  s.floor.room.pictures.resize(1);
+  s.windows.resize(1);
+  s.stills.resize(1);
+  s.stills[0].still.name = "worn";
+  return commented_toml([&](KeyVisitor& v) { describe_floor_scene(v, example); });
+}
+
+std::string resolved_json(const FloorScene& scene) {
+  FloorTables tables;
+  tables.scene = scene;
+  return values_json([&](KeyVisitor& v) { describe_floor_scene(v, tables); }, {"view"});
+}
+
+}  // namespace witherfield::scene
