@@ -62,7 +62,7 @@ Surface wired(const Surface& mesh, const std::vector<char>& marked, const glm::v
   for (const auto& [e, faces] : edges) {
     const bool border = faces == 1;
     const glm::dvec3 ends[2] = {mesh.position_m[std::size_t(e.first)], mesh.position_m[std::size_t(e.second)]};
-    add_cord(out, ends, (border ? 0.0042 : 0.0024) * size, border ? kMargin : kWire);
+    add_cord(out, ends, (border ? 0.0052 : 0.0022) * size, border ? kMargin : kWire);
   }
   return out;
 }
@@ -101,7 +101,7 @@ ObjectLooks leaf_looks(const leaf::LeafModel& model) {
       return *last;
     };
   }
-  looks.by_organ[kPetioleOrgan].kind = pov::LookKind::grain;
+  looks.by_organ[kPetioleOrgan].kind = looks.by_organ[kStemOrgan].kind = pov::LookKind::grain;
   looks.other.kind = pov::LookKind::matte;
   return looks;
 }
@@ -145,17 +145,39 @@ void add_handles(Surface& s, const leaf::LeafModel& m, const leaf::EditOptions& 
     const leaf::HandleOptions& h = edit.handles[i];
     const int v = h.by_uv ? leaf::vertex_at_uv(m.natural, h.uv) : leaf::nearest_vertex(m.natural.position_m, h.point_m);
     const bool dragged = i < key.move_m.size() && glm::length(key.move_m[i]) > 0;
-    add_ball(markers, s.position_m[std::size_t(v)], 0.016 * m.main_vein_m, dragged ? kDragged : kEar);
+    add_ball(markers, s.position_m[std::size_t(v)], 0.03 * m.main_vein_m, dragged ? kDragged : kEar);
   }
   std::vector<glm::dvec3> margin;
   for (const int v : m.border) margin.push_back(m.natural.position_m[std::size_t(v)]);
   if (!margin.empty()) margin.push_back(margin.front());
-  add_cord(markers, margin, 0.0025 * m.main_vein_m, kGhost);
+  add_cord(markers, margin, 0.0045 * m.main_vein_m, kGhost);
   auto& organ = markers.make_field("organ_id").values;
   std::fill(organ.begin(), organ.end(), float(kMarkerOrgan));
   if (!s.uv.empty()) markers.uv.assign(markers.position_m.size(), glm::dvec2(0.0));
   if (!s.normal.empty()) markers.normal = vertex_normals(markers);
   append(s, markers);
+}
+
+void add_stem(Surface& s, const leaf::LeafModel& m, double low_m) {
+  const auto& petiole = m.petiole.line_m;
+  if (petiole.size() < 2) return;
+  constexpr double kAbove_m = 0.05, kStemOverPetiole = 1.9;
+  const glm::dvec3 end = petiole.front(), along = petiole[1] - end;
+  const double radius = kStemOverPetiole * m.petiole.radius_stem_m, level = std::max(std::hypot(along.x, along.y), 1e-12);
+  const glm::dvec3 axis = end - glm::dvec3(along.x, along.y, 0) * (0.7 * radius / level);
+  std::vector<glm::dvec3> line;
+  constexpr int kPieces = 12;
+  for (int i = 0; i <= kPieces; ++i)
+    line.emplace_back(axis.x, axis.y, low_m + (end.z + kAbove_m - low_m) * i / kPieces);
+  Surface stem;
+  add_cord(stem, line, radius, glm::vec3(leaf::leaf_colour(10, 1)));
+  add_ball(stem, line.back(), radius, glm::vec3(leaf::leaf_colour(10, 1)));  // a rounded end
+  auto& organ = stem.make_field("organ_id").values;
+  std::fill(organ.begin(), organ.end(), float(kStemOrgan));
+  if (s.has_field("chlorophyll_ug_cm2")) stem.make_field("chlorophyll_ug_cm2");
+  if (!s.uv.empty()) stem.uv.assign(stem.position_m.size(), glm::dvec2(0.0));
+  if (!s.normal.empty()) stem.normal = vertex_normals(stem);
+  append(s, stem);
 }
 
 }  // namespace witherfield::cli

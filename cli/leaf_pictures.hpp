@@ -9,7 +9,7 @@
 namespace witherfield::cli {
 
 /// organ_id of a leaf's surfaces; markers are what pictures add to them.
-inline constexpr int kBladeOrgan = 0, kPetioleOrgan = 1, kMarkerOrgan = 2;
+inline constexpr int kBladeOrgan = 0, kPetioleOrgan = 1, kMarkerOrgan = 2, kStemOrgan = 3;
 
 /// @param model outlives the stills.
 ObjectLooks leaf_looks(const leaf::LeafModel& model);
@@ -25,5 +25,9 @@ std::vector<Surface> stage_objects(const leaf::LeafModel& model);
 /// before the edit as a cord.
 void add_handles(Surface& whole_leaf, const leaf::LeafModel& model, const leaf::EditOptions& edit,
                  const leaf::EditKey& key);
+
+/// A piece of stem from `low_m` to 5 cm above the petiole's end, so that a leaf that wilts hangs on something. Nothing
+/// when the leaf has no petiole.
+void add_stem(Surface& whole_leaf, const leaf::LeafModel& model, double low_m);
 
 }  // namespace witherfield::cli

@@ -202,9 +202,17 @@ class LeafRun : public RunStages {
         if (std::abs(f.wd - wd) < std::abs(best->wd - wd)) best = &f;
       Surface leaf = without_vein_colour(best->surface, model_.chlorophyll_ug_cm2);
       if (still.subject == "handles") show_handles(leaf, *best);
+      if (scene_.leaf.wilts) add_stem(leaf, model_, lowest_m() - 0.005);
       objects.push_back(without(leaf, still.hide));
     }
     return objects;
+  }
+
+  double lowest_m() const {
+    double low = 0;
+    for (const KeyFrame& f : frames_)
+      for (const glm::dvec3& p : f.surface.position_m) low = std::min(low, p.z);
+    return low;
   }
 
   /// At the key that the frame shows; before the first key all handles are held where they are.
@@ -220,7 +228,7 @@ class LeafRun : public RunStages {
     const auto& organ = surface.field("organ_id").values;
     return keep_faces(surface, [&](std::size_t f) {
       const int id = int(organ[std::size_t(surface.triangles[f][0])]);
-      const char* name = id == kBladeOrgan ? "blade" : id == kPetioleOrgan ? "petiole" : "marker";
+      const char* name = id == kBladeOrgan ? "blade" : id == kPetioleOrgan ? "petiole" : id == kStemOrgan ? "stem" : "marker";
       return std::find(organs.begin(), organs.end(), name) == organs.end();
     });
   }

@@ -19,7 +19,7 @@ constexpr int kMostTexels = 4096;
 constexpr float kTexelsPerPixel = 1.15f;
 // Heights of the relief, metres (estimates from photographs of cucumber leaves: veins sink into the quilted upper
 // side and stand out from the lower one).
-constexpr float kCushion_m = 0.34e-3f, kGroove_m = 0.30e-3f, kRidge_m = 0.75e-3f;
+constexpr float kCushion_m = 0.26e-3f, kGroove_m = 0.30e-3f, kRidge_m = 0.75e-3f;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
