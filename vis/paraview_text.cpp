@@ -114,14 +114,19 @@ def note(source, view, place):
     return shown
 
 
+def first_field():
+    """The first field of the table that is not (nearly) the same everywhere and always."""
+    return next((f for f in FIELDS if f[4] - f[3] > 0.02 * max(abs(f[3]), abs(f[4]))), FIELDS[0])
+
+
 def clock(source, view, degree):
-    """The day and the weathering degree (or the share of the visits) in the corners of the view."""
+    """The day, and a Python expression of wd (of floors the share of the visits), at the top of the view."""
     day = AnnotateTimeFilter(registrationName='day', Input=source)
     day.Format = 'Day {time:.1f}'
     note(day, view, 'Upper Left Corner')
     wd = PythonAnnotation(registrationName='wd', Input=source)
     wd.ArrayAssociation = 'Field Data'
-    wd.Expression = "'%s' %% wd[0]" % degree
+    wd.Expression = degree
     note(wd, view, 'Upper Center')
 
 
@@ -174,7 +179,7 @@ const char* const kGrass = R"PY(def show_grass(view):
     else:
         Hide(grass, view)
 
-    clock(grass, view, 'wd %.2f')
+    clock(grass, view, "'wd %.2f' % wd[0]")
     axes(view, 'mm')
     look_at(view, grass, (0.7, -2.0, 0.75))
 
@@ -203,11 +208,11 @@ const char* const kSurface = R"PY(def show_surface(view):
     shown = Show(series, view)
     shown.Ambient, shown.Diffuse, shown.Specular = 0.3, 0.75, 0.05
     if FIELDS:
-        name, title, unit, lo, hi, preset, invert = FIELDS[0]
+        name, title, unit, lo, hi, preset, invert = first_field()
         ColorBy(shown, ('POINTS', name))
         luts[name].RescaleTransferFunction(lo, hi)   # colouring by a field rescales it: put the run's range back
         legend(luts[name], view, title, unit)
-    clock(series, view, 'wd %.2f')
+    clock(series, view, "'wd %.2f' % wd[0]")
     axes(view, 'mm')
     look_at(view, series, (0.5, -2.2, 0.9))
     return series, series
@@ -225,11 +230,11 @@ const char* const kFloor = R"PY(def show_floor(view):
     shown.SetRepresentationType('Surface')
     shown.Ambient, shown.Diffuse, shown.Specular = 1.0, 0.0, 0.0   # a map, not a lit thing
     if FIELDS:
-        name, title, unit, lo, hi, preset, invert = FIELDS[0]
+        name, title, unit, lo, hi, preset, invert = first_field()
         ColorBy(shown, ('CELLS', name))
         luts[name].RescaleTransferFunction(lo, hi)   # colouring by a field rescales it: put the run's range back
         legend(luts[name], view, title, unit)
-    clock(series, view, '%.3g of the visits')
+    clock(series, view, "'%.3g %% of the visits' % (100 * wd[0])")
     axes(view, 'm')
     look_from_above(view, series)
     return series, series
