@@ -2,6 +2,7 @@
 // The scene file (sim/scene) fills these; `validate` is called once, by the simulator.
 #pragma once
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -107,6 +108,7 @@ struct FruitOptions {
   MaizeOptions maize;
   PlantedOptions planted;
   ControlMesh mesh;  ///< crop = mesh: the fruit; crop = planted: the body, when not empty. Metres
+  std::vector<glm::dvec2> mesh_uv;   ///< of its vertices, subdivided with them; empty = by place
   double mesh_crease_angle_deg = 0;  ///< edges of `mesh` sharper than this become creases, 0 = none, 0..180
   RipeningOptions ripening;
   std::vector<double> frames{0.0, 0.35, 0.6, 1.0};  ///< wd, ascending, 0..1

@@ -52,7 +52,7 @@ void accumulate_normals(std::span<const glm::dvec3> position, std::span<const st
 
 const char* organ_name(OrganKind kind) {
   constexpr const char* names[] = {"stem",     "wedge", "kernel", "glume", "lemma", "awn", "cob",
-                                   "cob bump", "shank", "body",   "sepal", "style", "mesh"};
+                                   "cob_bump", "shank", "body",   "sepal", "style", "mesh"};
   return names[int(kind)];
 }
 

@@ -28,7 +28,7 @@ enum class OrganKind : int {
   style,
   user_mesh
 };
-const char* organ_name(OrganKind kind);
+const char* organ_name(OrganKind kind);  ///< as scene files write it
 
 /// Where a vertex lies on its organ, for colour and texture; rides through the subdivision like a position.
 /// x across -1..1, y along 0 (root) .. 1 (tip), z free for the organ (depth of a kernel's groove, crown).
