@@ -81,7 +81,10 @@ int main(int argc, char** argv) {
   } catch (const cli::Interrupted& e) {
     return fail("interrupted", 128 + e.signal);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory; try --preview, or a coarser scene (texel.resolution, steps, fewer variants or grains)", 4);
+    return fail(
+        "out of memory; try --preview, or a coarser scene (texel.resolution, steps, fewer variants or "
+        "grains)",
+        4);
   } catch (const std::exception& e) {
     return fail(std::string("internal error, please report it: ") + e.what(), 4);
   }

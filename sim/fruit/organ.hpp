@@ -46,6 +46,7 @@ struct Coat {
   glm::vec3 mark{};                  ///< where paint.z is 1 (groove, crown, rim)
   float mottle = 0.0f;               ///< relative variation of brightness over the organ, 0..0.5
   float mottle_phase = 0.0f;
+  float nerves = 0.0f;  ///< how much five lengthwise nerves stand out from what is between them, 0..0.5
   float water = 1.0f, moisture_wb = 0.0f;
 };
 

@@ -157,7 +157,8 @@ void PlantedFruit::add_grain(Fruit& fruit, double wd, int index) const {
   // The dry style on the drupelet's top: a hair that bends at random.
   Organ style{.kind = OrganKind::style, .name = "style " + std::to_string(index + 1)};
   const auto any = [&] { return r.truncated_normal(0, 1, -1.5, 1.5); };
-  const double bend_x = any(), bend_y = any(), bend_z = any() - 0.6;
+  // Down by at most a third of its reach: a hair that came back to its root would cut itself.
+  const double bend_x = any(), bend_y = any(), bend_z = 0.5 * any() - 0.3;
   const glm::dvec3 bend(bend_x, bend_y, bend_z);
   const double reach = p.style_length_mm * r.uniform(0.6, 1.1);
   std::vector<glm::dvec3> points;
