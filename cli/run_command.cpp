@@ -19,14 +19,13 @@ namespace {
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  witherfield run examples/hillside.toml                 writes out/hillside\n"
-    "  witherfield run examples/hillside.toml --preview -o try   a small version in seconds, to check a "
-    "scene\n"
+    "  witherfield run examples/maize_ear.toml --preview -o try   small, in seconds, to check a scene\n"
     "  witherfield run meadow.toml --resume                   go on after an interruption or a full disk\n"
-    "  witherfield run --print-defaults grass > my.toml       every key, commented, with its default and "
+    "  witherfield run --print-defaults fruit > my.toml       every key, commented, with its default and "
     "range\n\n"
-    "A run holds grass.pvd (open it in ParaView; or view_in_paraview.py, which sets colours and legends),\n"
-    "texel/, optics/, points/ (the key frames), terrain.vtp, pov/ (scenes for `witherfield render`) and\n"
-    "run.json (the scene with every default, value ranges, checks, timings), written last.\n"
+    "A run holds a series for ParaView, KIND.pvd (grass.pvd, fruit.pvd, leaf.pvd, floor.pvd), and the files\n"
+    "of its key frames below; pov/ (scenes for `witherfield render`); and run.json (the scene with every\n"
+    "default, value ranges, checks, timings), written last. docs/formats.md lists all files and arrays.\n"
     "The same scene gives the same files, byte for byte, for any number of threads.";
 
 struct Options {

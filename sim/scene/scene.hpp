@@ -59,7 +59,7 @@ struct FruitScene {
   ObjectOutput output;
 };
 
-/// @param preview at most 1 step of subdivision, 2 key frames, stills of 240 pixels; smaller ears.
+/// @param preview at most 1 step of subdivision, stills of 240 pixels; smaller ears.
 FruitScene load_fruit_scene(const std::string& path, bool preview = false);
 std::string resolved_json(const FruitScene& scene);
 
