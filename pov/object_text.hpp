@@ -18,6 +18,10 @@ std::string studio_text(const Studio& studio, double unit);
 /// was counter-clockwise from outside stays outside for POV-Ray.
 std::string mesh2_text(const LitMesh& mesh, std::span<const int> faces, const FaceAtlas& atlas, double unit);
 
+/// The same with the vertices' own texture coordinates.
+std::string mesh2_text(const LitMesh& mesh, std::span<const int> faces, double unit);
+/// Texture of a leaf painted with its sheen (paint_skin): pigments `front` above and `back` below.
+std::string skin_text(const std::string& front, const std::string& back);
 /// "texture{...} [interior_texture{...}] [interior{...}]" of an organ whose glow is in declared pigments.
 std::string look_text(const ObjectLook& look, const std::string& front, const std::string& back);
 

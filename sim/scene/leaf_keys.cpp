@@ -14,7 +14,7 @@ constexpr Named<LeafSource> kSources[] = {
     {"veins", LeafSource::veins}, {"points", LeafSource::points}, {"mesh", LeafSource::mesh}};
 constexpr Named<EditMode> kModes[] = {{"linear", EditMode::linear},
                                       {"rotation_aware", EditMode::rotation_aware}};
-const ObjectChoices kChoices{{"whole", "stages"}, {"blade", "petiole"}};
+const ObjectChoices kChoices{{"whole", "stages", "handles"}, {"blade", "petiole", "stem"}};
 
 void describe_top(KeyVisitor& v, LeafScene& s) {
   LeafOptions& o = s.leaf;
