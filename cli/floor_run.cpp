@@ -17,6 +17,7 @@
 #include "sim/floor/simulate.hpp"
 #include "sim/scene/scene.hpp"
 #include "vis/atomic_file.hpp"
+#include "vis/table.hpp"
 #include "vis/writers.hpp"
 
 namespace witherfield::cli {

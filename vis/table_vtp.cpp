@@ -7,7 +7,7 @@
 #include "sim/core/errors.hpp"
 #include "sim/core/fields.hpp"
 #include "vis/atomic_file.hpp"
-#include "vis/writers.hpp"
+#include "vis/table.hpp"
 #include "vis/xml_document.hpp"
 
 namespace witherfield::vis {

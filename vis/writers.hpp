@@ -11,7 +11,6 @@
 #include "sim/core/floor_field.hpp"
 #include "sim/core/placement.hpp"
 #include "sim/core/point_set.hpp"
-#include "sim/core/point_table.hpp"
 #include "sim/core/texel_grid.hpp"
 #include "sim/core/tri_mesh.hpp"
 
@@ -57,12 +56,6 @@ void write_terrain_vtp(const std::filesystem::path& file, const TriMesh& mesh,
 /// All channels of a floor as cell data of a flat image, metres, z = 0. Float32 rounded to 10 mantissa bits.
 ValueRanges write_floor_vti(const std::filesystem::path& file, const FloorField& floor, const Stamp& stamp,
                             Compression compression = Compression::lz4);
-
-/// Points with their columns, metres: as vertices, or as lines when the table has some; and the same as text, one point a
-/// line under a header "x_m,y_m,z_m,...". @throws InvalidInput (a column's length or name), IoFailure.
-void write_table_vtp(const std::filesystem::path& file, const PointTable& table,
-                     Compression compression = Compression::lz4);
-void write_table_csv(const std::filesystem::path& file, const PointTable& table);
 
 /// .pvd time series. Entries are (days, path relative to the .pvd).
 void write_pvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& entries);
