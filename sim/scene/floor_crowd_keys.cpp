@@ -64,6 +64,11 @@ void describe_crowd(KeyVisitor& v, FloorOptions& o) {
   spread(v, {"foot_women_m", "The same of women"}, c.foot_women_m, foot);
   v.number({"toe_slide_share", "Share of the steps that end with a slide of the toe"}, c.toe_slide_share,
            {0, 1});
+  CurveKeys absent;
+  for (const auto& [first, last] : c.absent) absent.emplace_back(double(first), double(last));
+  v.pairs({"absent", "Visits [first, last) that do not take place"}, absent, {0, 1e8, "visits"}, {0, 1e8, "visits"});
+  c.absent.clear();
+  for (const auto& [first, last] : absent) c.absent.emplace_back(std::int64_t(first), std::int64_t(last));
 }
 
 void describe_gait(KeyVisitor& v, GaitOptions& g) {
