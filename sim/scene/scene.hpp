@@ -19,6 +19,8 @@ struct OutputOptions {
   bool fields = true;               ///< texel/*.vti and grass.pvd
   bool optics = true;               ///< optics/*.vti
   bool points = true;               ///< points/*.vtp
+  bool blades = false;              ///< blades/*.vtp
+  std::string other_variants = "fields";  ///< of the texel's variants but the first: "all" of the above, "fields", "none"
   bool pov = true;                  ///< pov/ scenes
   std::string compression = "lz4";  ///< "lz4" (fast) or "zlib" (small, for archives and the web)
 };
