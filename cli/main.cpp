@@ -68,9 +68,10 @@ int main(int argc, char** argv) {
   cli::add_volume_command(app, quiet);
   cli::add_info_command(app, quiet);
   cli::add_check_command(app, quiet);
+  cli::add_edit_command(app, quiet);
   if (const std::string word = unknown_command(app, argc, argv); !word.empty())
     return fail(
-        "unknown command '" + word + "'; there are run, render, volume, info, check (witherfield --help)", 2);
+        "unknown command '" + word + "'; there are run, render, volume, info, check, edit (witherfield --help)", 2);
   try {
     app.parse(argc, argv);
     return 0;
