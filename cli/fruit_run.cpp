@@ -28,7 +28,12 @@ ObjectLooks looks_of(const std::string& crop) {
   ObjectLooks looks;
   const bool wheat = crop == "wheat";
   looks.other.kind = wheat ? LookKind::grain : LookKind::matte;
-  looks.by_organ[int(OrganKind::kernel)].kind = wheat ? LookKind::grain : LookKind::waxy;
+  pov::ObjectLook& kernel = looks.by_organ[int(OrganKind::kernel)];
+  kernel.kind = wheat ? LookKind::grain : LookKind::waxy;
+  if (crop == "planted") {  // berries: a downy skin over juicy flesh
+    kernel.gloss = 0.25;
+    kernel.softness = 1.5;
+  }
   looks.by_organ[int(OrganKind::user_mesh)].kind = LookKind::waxy;
   return looks;
 }
