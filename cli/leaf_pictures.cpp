@@ -20,8 +20,8 @@ using Face = std::array<int, 3>;
 
 // Linear sRGB.
 constexpr glm::vec3 kMargin{0.05f, 0.16f, 0.03f}, kMidrib{0.38f, 0.15f, 0.03f}, kSheet{0.50f, 0.64f, 0.36f},
-    kWire{0.06f, 0.11f, 0.05f}, kEar{0.62f, 0.03f, 0.02f}, kRepaired{0.05f, 0.16f, 0.55f}, kDragged{0.03f, 0.12f, 0.60f},
-    kGhost{0.30f, 0.30f, 0.30f};
+    kWire{0.06f, 0.11f, 0.05f}, kEar{0.62f, 0.03f, 0.02f}, kRepaired{0.05f, 0.16f, 0.55f},
+    kDragged{0.03f, 0.12f, 0.60f}, kGhost{0.30f, 0.30f, 0.30f};
 
 /// Triangles with a vertex that no other triangle has: two of their edges lie on the border.
 std::vector<char> ears(const Surface& s) {
@@ -56,13 +56,15 @@ Surface wired(const Surface& mesh, const std::vector<char>& marked, const glm::v
   auto& diffuse = out.make_field("diffuse").values;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) diffuse[9 * f + 3 * k + std::size_t(c)] = (marked.empty() || !marked[f] ? kSheet : mark)[c];
+      for (int c = 0; c < 3; ++c)
+        diffuse[9 * f + 3 * k + std::size_t(c)] = (marked.empty() || !marked[f] ? kSheet : mark)[c];
   std::map<std::pair<int, int>, int> edges;
   for (const Face& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
   for (const auto& [e, faces] : edges) {
     const bool border = faces == 1;
-    const glm::dvec3 ends[2] = {mesh.position_m[std::size_t(e.first)], mesh.position_m[std::size_t(e.second)]};
+    const glm::dvec3 ends[2] = {mesh.position_m[std::size_t(e.first)],
+                                mesh.position_m[std::size_t(e.second)]};
     add_cord(out, ends, (border ? 0.0052 : 0.0022) * size, border ? kMargin : kWire);
   }
   return out;
@@ -133,18 +135,21 @@ std::vector<Surface> stage_objects(const leaf::LeafModel& m) {
     else if (last && i > 0 && !m.stages[i - 1].surface.triangles.empty())
       out.push_back(wired(stage.surface, not_in(stage.surface, m.stages[i - 1].surface), kRepaired, size));
     else
-      out.push_back(wired(stage.surface, i + 2 == m.stages.size() ? ears(stage.surface) : std::vector<char>(), kEar, size));
+      out.push_back(wired(stage.surface, i + 2 == m.stages.size() ? ears(stage.surface) : std::vector<char>(),
+                          kEar, size));
     auto& organ = out.back().make_field("organ_id").values;
     std::fill(organ.begin(), organ.end(), float(kMarkerOrgan));
   }
   return out;
 }
 
-void add_handles(Surface& s, const leaf::LeafModel& m, const leaf::EditOptions& edit, const leaf::EditKey& key) {
+void add_handles(Surface& s, const leaf::LeafModel& m, const leaf::EditOptions& edit,
+                 const leaf::EditKey& key) {
   Surface markers;
   for (std::size_t i = 0; i < edit.handles.size(); ++i) {
     const leaf::HandleOptions& h = edit.handles[i];
-    const int v = h.by_uv ? leaf::vertex_at_uv(m.natural, h.uv) : leaf::nearest_vertex(m.natural.position_m, h.point_m);
+    const int v =
+        h.by_uv ? leaf::vertex_at_uv(m.natural, h.uv) : leaf::nearest_vertex(m.natural.position_m, h.point_m);
     const bool dragged = i < key.move_m.size() && glm::length(key.move_m[i]) > 0;
     add_ball(markers, s.position_m[std::size_t(v)], 0.03 * m.main_vein_m, dragged ? kDragged : kEar);
   }
@@ -164,7 +169,8 @@ void add_stem(Surface& s, const leaf::LeafModel& m, double low_m) {
   if (petiole.size() < 2) return;
   constexpr double kAbove_m = 0.05, kStemOverPetiole = 1.9;
   const glm::dvec3 end = petiole.front(), along = petiole[1] - end;
-  const double radius = kStemOverPetiole * m.petiole.radius_stem_m, level = std::max(std::hypot(along.x, along.y), 1e-12);
+  const double radius = kStemOverPetiole * m.petiole.radius_stem_m,
+               level = std::max(std::hypot(along.x, along.y), 1e-12);
   const glm::dvec3 axis = end - glm::dvec3(along.x, along.y, 0) * (0.7 * radius / level);
   std::vector<glm::dvec3> line;
   constexpr int kPieces = 12;

@@ -10,6 +10,7 @@ namespace witherfield::cli {
 /// @param colour linear sRGB, into the field `diffuse`.
 void add_ball(Surface& surface, const glm::dvec3& center_m, double radius_m, const glm::vec3& colour);
 /// A tube along the points, open at both ends; nothing for fewer than two points.
-void add_cord(Surface& surface, std::span<const glm::dvec3> points_m, double radius_m, const glm::vec3& colour);
+void add_cord(Surface& surface, std::span<const glm::dvec3> points_m, double radius_m,
+              const glm::vec3& colour);
 
 }  // namespace witherfield::cli

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kMostTexels = 4096;
 constexpr float kTexelsPerPixel = 1.15f;
-// Heights of the relief, metres (estimates from photographs of cucumber leaves: veins sink into the quilted upper
-// side and stand out from the lower one).
+// Heights of the relief, metres (estimates from photographs of cucumber leaves: veins sink into the quilted
+// upper side and stand out from the lower one).
 constexpr float kCushion_m = 0.26e-3f, kGroove_m = 0.30e-3f, kRidge_m = 0.75e-3f;
 
 std::size_t at(int i) {
@@ -67,8 +67,8 @@ struct Blend {
   }
 };
 
-/// The lobe of a microfacet surface (GGX, Walter et al. 2007, with Schlick's Fresnel term for a cuticle of index 1.45
-/// and the height-correlated Smith term in Karis's form) times cos(light).
+/// The lobe of a microfacet surface (GGX, Walter et al. 2007, with Schlick's Fresnel term for a cuticle of
+/// index 1.45 and the height-correlated Smith term in Karis's form) times cos(light).
 float lobe(const glm::vec3& n, const glm::vec3& to_eye, const glm::vec3& to_light, float roughness) {
   const float nl = glm::dot(n, to_light), nv = std::max(glm::dot(n, to_eye), 0.05f);
   if (nl <= 0) return 0;
@@ -82,11 +82,18 @@ float lobe(const glm::vec3& n, const glm::vec3& to_eye, const glm::vec3& to_ligh
 
 class Painter {
  public:
-  Painter(const Studio& s, const View& view, const LitMesh& m, const Glow& glow, const ObjectLook& look, double scale,
-          int n)
-      : studio_(s), eye_(view.position()), mesh_(m), glow_(glow), look_(look), scale_(float(scale)), n_(n),
+  Painter(const Studio& s, const View& view, const LitMesh& m, const Glow& glow, const ObjectLook& look,
+          double scale, int n)
+      : studio_(s),
+        eye_(view.position()),
+        mesh_(m),
+        glow_(glow),
+        look_(look),
+        scale_(float(scale)),
+        n_(n),
         detail_(look.detail(n)) {
-    if (detail_.pixels != n || detail_.vein.size() != at(n) * at(n) || detail_.height.size() != detail_.vein.size())
+    if (detail_.pixels != n || detail_.vein.size() != at(n) * at(n) ||
+        detail_.height.size() != detail_.vein.size())
       throw InvalidInput("leaf skin: detail of " + std::to_string(n) + " pixels was asked for, got " +
                          std::to_string(detail_.pixels));
     for (const Softbox& b : s.boxes) {
@@ -103,7 +110,8 @@ class Painter {
     const float area = cross2(ab, ac), u = cross2(p, ac) / area, v = cross2(ab, p) / area;
     const Blend b{{at(t[0]), at(t[1]), at(t[2])}, {1 - u - v, u, v}};
     const auto& x = mesh_.vertices;
-    const glm::vec3 e1 = x[b.v[1]].position_m - x[b.v[0]].position_m, e2 = x[b.v[2]].position_m - x[b.v[0]].position_m;
+    const glm::vec3 e1 = x[b.v[1]].position_m - x[b.v[0]].position_m,
+                    e2 = x[b.v[2]].position_m - x[b.v[0]].position_m;
     // Metres in space along u and v.
     const glm::vec3 along_u = (e1 * ac.y - e2 * ab.y) / area, along_v = (e2 * ab.x - e1 * ac.x) / area;
     const glm::vec3 n = glm::normalize(b.of(x, [](const LitVertex& w) { return w.normal; }));
@@ -125,8 +133,10 @@ class Painter {
     const Tissue tissue = tissue_at(b, local, vein, detail_.height[index(i, j)]);
     const glm::vec3 above = light(b, glow_.above, up, n), below = light(b, glow_.below, down, -n);
     const float sheen = float(look_.gloss) * (1 - 0.35f * std::min(1.0f, 1.5f * vein));
-    front = tissue.front * above * tissue.open + tissue.through * below + mirrored(b, glow_.above, at_m, up, 0.52f, sheen);
-    back = tissue.back * below + tissue.through * above + mirrored(b, glow_.below, at_m, down, 0.68f, 0.55f * sheen);
+    front = tissue.front * above * tissue.open + tissue.through * below +
+            mirrored(b, glow_.above, at_m, up, 0.52f, sheen);
+    back = tissue.back * below + tissue.through * above +
+           mirrored(b, glow_.below, at_m, down, 0.68f, 0.55f * sheen);
   }
 
  private:
@@ -148,7 +158,8 @@ class Painter {
   Tissue tissue_at(const Blend& b, const glm::vec3& local, float vein, float height) const {
     const auto& x = mesh_.vertices;
     glm::vec3 unused;
-    const float mottle = 1 + 0.07f * bumps(local / 11e-3f, unused) + 0.045f * bumps(local / 2.3e-3f + 3.0f, unused);
+    const float mottle =
+        1 + 0.07f * bumps(local / 11e-3f, unused) + 0.045f * bumps(local / 2.3e-3f + 3.0f, unused);
     const glm::vec3 blade = glm::min(b.of(x, [](const LitVertex& w) { return w.front; }) * mottle, 0.9f);
     const glm::vec3 through = b.of(x, [](const LitVertex& w) { return w.through; });
     const glm::vec3 lower = b.of(x, [](const LitVertex& w) { return w.back; });
@@ -156,7 +167,8 @@ class Painter {
     const float thick = glm::smoothstep(0.30f, 0.85f, vein), pale = glm::smoothstep(0.0f, 0.75f, vein);
     Tissue t;
     t.front = glm::mix(blade, look_.vein_rgb, 0.72f * pale);
-    t.back = glm::mix(lower * mottle, glm::mix(look_.vein_rgb, glm::vec3(0.50f, 0.56f, 0.40f), 0.35f), 0.80f * pale);
+    t.back = glm::mix(lower * mottle, glm::mix(look_.vein_rgb, glm::vec3(0.50f, 0.56f, 0.40f), 0.35f),
+                      0.80f * pale);
     // A fine vein has less to absorb than the green around it; a thick one is a rod of tissue that scatters.
     const glm::vec3 clear = glm::min(glm::pow(glm::max(through, 1e-4f), glm::vec3(0.72f)), 0.55f);
     t.through = glm::mix(glm::mix(through, clear, std::min(1.0f, 2.6f * vein)), 0.45f * clear, thick);
@@ -174,8 +186,8 @@ class Painter {
     return glm::max(sum, 0.12f * b.of(s.irradiance));
   }
 
-  glm::vec3 mirrored(const Blend& b, const SideLight& s, const glm::vec3& at_m, const glm::vec3& n, float roughness,
-                     float sheen) const {
+  glm::vec3 mirrored(const Blend& b, const SideLight& s, const glm::vec3& at_m, const glm::vec3& n,
+                     float roughness, float sheen) const {
     const glm::vec3 to_eye = glm::normalize(eye_ - at_m);
     if (sheen <= 0 || glm::dot(to_eye, n) < -0.2f) return glm::vec3(0.0f);
     const glm::vec2 arriving = b.of(s.boxes);
@@ -185,10 +197,12 @@ class Painter {
       sum += glm::vec3(studio_.boxes[k].colour) * arriving[int(k)] * std::numbers::pi_v<float> *
              lobe(n, to_eye, to_box, std::min(0.95f, roughness + spread_[k]));
     }
-    // The room in a rough mirror: Fresnel's term for rough surfaces (Lagarde's) on what comes from about there.
+    // The room in a rough mirror: Fresnel's term for rough surfaces (Lagarde's) on what comes from about
+    // there.
     const float nv = std::max(glm::dot(n, to_eye), 0.0f);
     const float fresnel = 0.034f + (std::max(1 - roughness, 0.034f) - 0.034f) * std::pow(1 - nv, 5.0f);
-    const glm::vec3 r = 2 * glm::dot(n, to_eye) * n - to_eye, toward = glm::normalize(glm::mix(r, n, roughness));
+    const glm::vec3 r = 2 * glm::dot(n, to_eye) * n - to_eye,
+                    toward = glm::normalize(glm::mix(r, n, roughness));
     sum += 0.55f * fresnel * glm::vec3(studio_.room(glm::dvec3(toward)));
     return sheen * sum;
   }
@@ -204,8 +218,8 @@ class Painter {
   std::vector<float> spread_;
 };
 
-/// Texels beside the leaf take the mean of their painted neighbours, so that interpolation at the margin does not meet
-/// black.
+/// Texels beside the leaf take the mean of their painted neighbours, so that interpolation at the margin does
+/// not meet black.
 void bleed_outwards(std::vector<glm::vec3>& rgb, std::vector<char> painted, int n) {
   for (int round = 0; round < 3; ++round) {
     std::vector<char> next = painted;
@@ -232,7 +246,8 @@ int skin_pixels(const LitMesh& m, const View& view) {
   for (const auto& t : m.triangles) {
     const LitVertex &a = m.vertices[at(t[0])], &b = m.vertices[at(t[1])], &c = m.vertices[at(t[2])];
     const double own = std::abs(cross2(b.uv - a.uv, c.uv - a.uv));
-    space += own > 0 ? glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m)) : 0.0;
+    space +=
+        own > 0 ? glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m)) : 0.0;
     plane += own;
     pixel += own * view.pixel_m(a.position_m);
     weight += own;
@@ -242,8 +257,8 @@ int skin_pixels(const LitMesh& m, const View& view) {
   return std::clamp(int(std::ceil(side_m / texel_m)), 64, kMostTexels);
 }
 
-SkinPictures paint_skin(const Studio& studio, const View& view, const LitMesh& mesh, std::span<const int> faces,
-                        const Glow& glow, const ObjectLook& look, double scale) {
+SkinPictures paint_skin(const Studio& studio, const View& view, const LitMesh& mesh,
+                        std::span<const int> faces, const Glow& glow, const ObjectLook& look, double scale) {
   SkinPictures out;
   const int n = out.pixels = skin_pixels(mesh, view);
   const Painter painter(studio, view, mesh, glow, look, scale, n);

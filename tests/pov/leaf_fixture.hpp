@@ -43,7 +43,8 @@ inline LeafDetail detail(int n) {
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const double u = (i + 0.5) / n, v = (j + 0.5) / n;
-      const double main = std::exp(-std::pow((u - 0.25) / 0.03, 2)), side = 0.65 * std::exp(-std::pow((v - 0.8) / 0.03, 2));
+      const double main = std::exp(-std::pow((u - 0.25) / 0.03, 2)),
+                   side = 0.65 * std::exp(-std::pow((v - 0.8) / 0.03, 2));
       d.vein.push_back(float(std::max(main, side)));
       d.height.push_back(1.0f);
     }

@@ -24,7 +24,8 @@ std::array<double, 3> at(const HdrImage& p, double x, double y) {
 
 HdrImage rendered(const fs::path& folder, const ObjectSceneInput& input) {
   const fs::path scene = write_object_scene(folder, input);
-  run_povray(folder, {"+I" + scene.filename().string(), "+Oraw.hdr", "+FH", "-D", "-P", "-A", "+W48", "+H48"}, {});
+  run_povray(folder, {"+I" + scene.filename().string(), "+Oraw.hdr", "+FH", "-D", "-P", "-A", "+W48", "+H48"},
+             {});
   return decode_hdr(read_file(folder / "raw.hdr"), "raw");
 }
 

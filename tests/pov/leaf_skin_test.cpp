@@ -47,7 +47,8 @@ TEST_F(LeafSkin, VeinsArePalerAndLieWhereUvSays) {
   const StudioGlow glow = light_studio(studio, view, tree, meshes);
   std::vector<int> faces(meshes[0].triangles.size());
   for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = int(f);
-  const SkinPictures skin = paint_skin(studio, view, meshes[0], faces, glow.meshes[0], look_of(input.objects[0], 0), 1);
+  const SkinPictures skin =
+      paint_skin(studio, view, meshes[0], faces, glow.meshes[0], look_of(input.objects[0], 0), 1);
   ASSERT_GE(skin.pixels, 64);
   const auto mean = [&](const std::vector<glm::vec3>& picture, double u, double v) {
     const int n = skin.pixels, i = int(u * n), j = n - 1 - int(v * n);
