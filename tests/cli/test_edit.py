@@ -162,8 +162,12 @@ class Window(ProgramTest):
 
         while_held = []
         pin = self.middle(self.blue(placed), "handle at the petiole")
-        self.screen.drag((x, y), (x - 40, y - 90), held=lambda: while_held.append(self.wait_for(
-            lambda: (lambda s: s if self.orange(s).any() and abs(self.middle(self.orange(s), "handle")[1] - y + 90) < 4 else None)(self.screen.shot()), "the handle under the pointer")))
+        def under_the_pointer():
+            shot = self.screen.shot()
+            if self.orange(shot).sum() > 20 and abs(self.middle(self.orange(shot), "handle")[1] - (y - 90)) < 4:
+                while_held.append(shot)
+            return bool(while_held)
+        self.screen.drag((x, y), (x - 40, y - 90), held=lambda: self.wait_for(under_the_pointer, "the handle under the pointer"))
         self.assertGreater(self.pixels_changed(placed, while_held[0]), 5000)  # it follows before the button is up
         moved = self.still()
         self.assertGreater(self.pixels_changed(placed, moved), 5000)
