@@ -32,7 +32,9 @@ using vis::MarkerLook;
 constexpr int kPicturePixels = 1024;      // of the veins over the leaf
 constexpr double kCurveReach_px = 12;     // a click this near to a curve makes a point on it
 constexpr double kNotice_s = 6;
-constexpr double kPanel_s = 0.2;          // between two refreshes of the panel while dragging
+constexpr double kSolve_s = 0.012;        // of a frame for solving, if it can be had
+constexpr double kPanel_s = 0.25;         // between two refreshes of the panel while dragging, at least;
+constexpr double kPanelShare = 25;        // and so many times what one takes
 constexpr const char* kFields[] = {"", "strain_area", "displacement_m", "vein"};
 constexpr int kFieldCount = 4;
 
@@ -97,7 +99,12 @@ class EditApp : public vis::EditWindowClient {
   void drag(const glm::dvec3& to_m) override {
     guarded([&] {
       if (tool_ == EditTool::handles) {
-        session_.move_handle(handle_, to_m);
+        const auto start = Clock::now();
+        session_.move_handle(handle_, to_m, iterations_);
+        // As many iterations as leave time for drawing; the next frame goes on from here.
+        const double taken_s = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!first_move_) iterations_ = std::clamp(taken_s > kSolve_s ? iterations_ - 1 : iterations_ + 1, 1, 6);
+        first_move_ = false;
         window_.move_surface(session_.positions());
         if (field_ != 0) show_field();
       } else {
@@ -107,7 +114,7 @@ class EditApp : public vis::EditWindowClient {
       }
     });
     show_markers();
-    if (Clock::now() - panel_time_ > std::chrono::duration<double>(kPanel_s)) show_panel();
+    if (Clock::now() - panel_time_ > std::chrono::duration<double>(std::max(kPanel_s, kPanelShare * panel_cost_s_))) show_panel();
   }
 
   void release() override {
@@ -148,6 +155,7 @@ class EditApp : public vis::EditWindowClient {
     handle_ = p.marker;
     if (p.marker < 0 && p.vertex < 0) return {};
     session_.begin();
+    first_move_ = true;
     if (p.marker < 0) handle_ = session_.add_handle(p.vertex);
     return {true, session_.handle_place(handle_), std::nullopt};
   }
@@ -373,13 +381,17 @@ class EditApp : public vis::EditWindowClient {
     const auto& all = s.field(name).values;
     const FieldSpec& spec = field_spec(name);
     std::vector<float> values(s.position_m.size());
-    float largest = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       double square = 0;
       for (int c = 0; c < spec.components; ++c) square += double(all[i * std::size_t(spec.components) + std::size_t(c)]) * double(all[i * std::size_t(spec.components) + std::size_t(c)]);
       values[i] = spec.components == 1 ? all[i] : float(std::sqrt(square) * 1e3);
-      largest = std::max(largest, std::abs(values[i]));
     }
+    // The scale of all but a hundredth of the vertices: those beside a handle would take it for themselves.
+    std::vector<float> sizes(values);
+    for (float& v : sizes) v = std::abs(v);
+    const auto high = sizes.begin() + std::ptrdiff_t(0.99 * double(sizes.size() - 1));
+    std::nth_element(sizes.begin(), high, sizes.end());
+    const float largest = *high;
     const bool length = name == "displacement_m";
     double hi = name == "vein" ? 1.0 : round_up(std::max(double(largest), length ? 1.0 : 0.01));
     if (session_.in_gesture()) hi = std::max(hi, scale_);  // the scale does not jump while the mouse moves
@@ -414,7 +426,7 @@ class EditApp : public vis::EditWindowClient {
   }
 
   void show_panel() {
-    panel_time_ = Clock::now();
+    const auto start = Clock::now();
     EditStatus s;
     s.name = scene_.name;
     s.tool = tool_;
@@ -427,6 +439,8 @@ class EditApp : public vis::EditWindowClient {
     s.field = field_ == 0 ? "" : std::string(field_spec(kFields[field_]).title);
     window_.set_panel(panel_heading(session_, tool_), panel_rows(session_, s));
     if (!session_.in_gesture()) window_.set_title(title_text(session_, s));
+    panel_time_ = Clock::now();
+    panel_cost_s_ = std::chrono::duration<double>(panel_time_ - start).count();
   }
 
   void notice(const std::string& text, bool warning = false) {
@@ -485,6 +499,9 @@ class EditApp : public vis::EditWindowClient {
   const leaf::LeafModel *shown_ = nullptr, *pictured_ = nullptr;
   vis::SurfacePicture picture_;
   leaf::EditReport report_;
+  int iterations_ = 4;
+  double panel_cost_s_ = 0;
+  bool first_move_ = true;  ///< it sets the handles, which is no measure
   long intersections_ = -1;
   std::future<long> counting_;
   bool count_again_ = false;

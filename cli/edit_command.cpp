@@ -45,7 +45,8 @@ void run(Options& o, const bool& quiet) {
   Console console(quiet);
   o.request.scene_file = o.scene;
   o.request.target = o.output.empty() ? edited_name(o.scene) : std::filesystem::path(o.output);
-  if (!o.size.empty()) std::tie(o.request.window.width_px, o.request.window.height_px) = parse_size(o.size);
+  if (!o.size.empty())
+    std::tie(o.request.window.width_px, o.request.window.height_px) = parse_size(o.size);
   edit_leaf(o.request, console);
 }
 

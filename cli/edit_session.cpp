@@ -20,13 +20,10 @@ constexpr double kMoveGrain_m = 1e-7;       // moves are rounded to it: short nu
 constexpr double kHoldShare = 0.035;        // radius of the handle at the petiole over the main vein's length
 constexpr std::size_t kUndoSteps = 200;
 constexpr std::size_t kUndoModels = 8;      // of them keep their mesh; older ones build it again
-constexpr int kDragIterations = 4;          // of the rotation-aware mode in a frame; each goes on from the last
+constexpr double kGripShare = 0.012;        // radius of a new handle, likewise: a single vertex would be drawn out to a spike
 
 std::vector<glm::dvec3>& points_of(OutlinePoints& p, OutlineGroup group) {
   return group == OutlineGroup::left ? p.left_m : group == OutlineGroup::right ? p.right_m : p.midrib_m;
-}
-const std::vector<glm::dvec3>& points_of(const OutlinePoints& p, OutlineGroup group) {
-  return points_of(const_cast<OutlinePoints&>(p), group);
 }
 bool same(const OutlinePoints& a, const OutlinePoints& b) {
   return a.left_m == b.left_m && a.right_m == b.right_m && a.midrib_m == b.midrib_m;
@@ -169,7 +166,8 @@ void EditSession::Impl::hold_petiole() {
   if (e.handles.empty() && !m.midrib.empty()) {
     leaf::HandleOptions h;
     h.name = "petiole";
-    h.uv = m.natural.uv[std::size_t(m.midrib.front())];
+    h.by_uv = false;
+    h.point_m = m.natural.position_m[std::size_t(m.midrib.front())];
     h.radius_m = kHoldShare * m.main_vein_m;
     e.handles.push_back(h);
   }
@@ -254,9 +252,10 @@ int EditSession::add_handle(int vertex) {
   }
   leaf::HandleOptions h;
   h.name = "handle " + std::to_string(m.now.edit.handles.size() + 1);
-  h.uv = natural.uv[std::size_t(vertex)];
-  h.by_uv = leaf::vertex_at_uv(natural, h.uv) == vertex;
-  h.point_m = natural.position_m[std::size_t(vertex)];
+  // Not by uv: its axes may turn when another outline is drawn.
+  h.by_uv = false;
+  h.point_m = glm::round(natural.position_m[std::size_t(vertex)] / kMoveGrain_m) * kMoveGrain_m;
+  h.radius_m = std::round(kGripShare * m.now.model->main_vein_m * 1e6) * 1e-6;
   as_gesture(*this, [&] {
     // Where the place is in the keys before, it stays: the new handle changes nothing yet.
     std::vector<glm::dvec3> at;
@@ -298,21 +297,19 @@ void EditSession::set_radius(int handle, double radius_m) {
   });
 }
 
-void EditSession::move_handle(int handle, const glm::dvec3& to_m) {
+void EditSession::move_handle(int handle, const glm::dvec3& to_m, int iterations) {
   Impl& m = *impl_;
   m.ensure_walk();
   m.moves()[std::size_t(handle)] = to_m - m.home(m.walk->vertex(std::size_t(handle)));
   m.change();
-  m.walk->follow(m.moves(), std::min(kDragIterations, m.now.edit.max_iterations));
+  m.walk->follow(m.moves(), std::clamp(iterations, 1, m.now.edit.max_iterations));
   m.now.position = std::make_shared<Positions>(m.live->positions());
 }
 
 glm::dvec3 EditSession::handle_place(int handle) const {
   Impl& m = *impl_;
-  const leaf::HandleOptions& h = m.now.edit.handles[std::size_t(handle)];
-  const Surface& s = m.now.model->natural;
-  const int v = h.by_uv ? leaf::vertex_at_uv(s, h.uv) : leaf::nearest_vertex(s.position_m, h.point_m);
-  return m.home(v) + m.moves()[std::size_t(handle)];
+  m.ensure_walk();
+  return m.home(m.walk->vertex(std::size_t(handle))) + m.moves()[std::size_t(handle)];
 }
 
 std::vector<int> EditSession::held_along(int handle) const {

@@ -45,7 +45,8 @@ class EditSession {
   /// @throws InvalidInput when it is the last one.
   void remove_handle(int handle);
   void set_radius(int handle, double radius_m);
-  void move_handle(int handle, const glm::dvec3& to_m);  ///< within a gesture; quick, end() makes it exact
+  /// Within a gesture; quick, end() makes it exact. @param iterations of the rotation-aware mode: each call goes on from the last.
+  void move_handle(int handle, const glm::dvec3& to_m, int iterations = 4);
   glm::dvec3 handle_place(int handle) const;
   /// Vertices that a handle with a radius moves along, without its own.
   std::vector<int> held_along(int handle) const;

@@ -55,7 +55,7 @@ std::string title_text(const EditSession& session, const EditStatus& s) {
   const std::string name = s.name + (s.changed ? "*" : "");
   if (s.tool == EditTool::outline)
     return fmt::format("{} - outline points: {:.1f} cm2 - witherfield edit", name, session.model().area_m2 * 1e4);
-  return fmt::format("{} - {} handles, {}: area {}, strain {:.1f} %, {} flipped, {} intersecting - witherfield edit", name,
+  return fmt::format("{} - handles: {}, {}, area {}, strain {:.1f} %, flipped {}, intersecting {} - witherfield edit", name,
                      session.edit().handles.size(), mode_name(session.edit().mode), percent(s.report.area_drift),
                      100 * s.report.largest_strain, s.report.flipped_faces, crossing(s.intersections));
 }
@@ -73,7 +73,7 @@ TextRows help_rows() {
           {"Tab", "handles on the leaf / points of outline and midrib on the flat leaf"},
           {"M", "linear (the paper's) / rotation-aware"},
           {"Delete", "remove the selected handle or point"},
-          {"[  ]", "the selected handle holds fewer / more of the leaf around it"},
+          {"brackets [ ]", "the selected handle holds fewer / more of the leaf around it"},
           {"K", "key frame: keep this shape as one, go on to the next"},
           {"Ctrl+Z, Ctrl+Y", "undo, redo"},
           {"R", "reset: the leaf as it was opened (can be undone)"},

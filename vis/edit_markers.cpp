@@ -1,49 +1,75 @@
 #include "vis/edit_markers.hpp"
 
 #include <vtkActor.h>
+#include <vtkActor2D.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkFloatArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPointGaussianMapper.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <numbers>
 
 namespace witherfield::vis {
 namespace {
 
 struct Look {
-  std::array<unsigned char, 3> colour;
+  glm::dvec3 colour;
   double radius_px;
 };
 
 Look look_of(MarkerLook look) {
   switch (look) {
-    case MarkerLook::handle: return {{238, 118, 28}, 7.5};
-    case MarkerLook::pin: return {{44, 110, 200}, 7.5};
-    case MarkerLook::outline: return {{24, 140, 96}, 6.0};
-    case MarkerLook::midrib: return {{132, 76, 176}, 6.0};
-    case MarkerLook::dot: return {{238, 150, 70}, 2.6};
+    case MarkerLook::handle: return {{0.93, 0.45, 0.08}, 7.5};
+    case MarkerLook::pin: return {{0.16, 0.42, 0.80}, 7.5};
+    case MarkerLook::outline: return {{0.05, 0.56, 0.40}, 6.0};
+    case MarkerLook::midrib: return {{0.52, 0.30, 0.70}, 6.0};
+    case MarkerLook::dot: return {{0.98, 0.72, 0.40}, 2.4};
   }
   return {};
 }
 
-// A ball lit from the upper left with a soft rim; what it is drawn on stays visible around it.
-constexpr const char* kBall =
-    "//VTK::Color::Impl\n"
-    "float r = length(offsetVCVSOutput.xy);\n"
-    "if (r > 1.0) { discard; }\n"
-    "float lit = 0.78 + 0.30 * dot(vec3(offsetVCVSOutput.xy, sqrt(max(0.0, 1.0 - r * r))), vec3(-0.45, 0.55, 0.70));\n"
-    "ambientColor *= lit; diffuseColor *= 0.0;\n"
-    "opacity *= 1.0 - smoothstep(0.84, 1.0, r);\n";
+/// Discs in pixels, one over the other in the order in which they are added.
+class Discs {
+ public:
+  Discs() {
+    colours_->SetNumberOfComponents(4);
+    colours_->SetName("colour");
+  }
+  void add(const glm::dvec2& middle, double radius, const glm::dvec3& colour, double opacity) {
+    constexpr int kCorners = 32;
+    cells_->InsertNextCell(kCorners);
+    for (int k = 0; k < kCorners; ++k) {
+      const double a = 2 * std::numbers::pi * k / kCorners;
+      cells_->InsertCellPoint(points_->InsertNextPoint(middle.x + radius * std::cos(a), middle.y + radius * std::sin(a), 0));
+    }
+    unsigned char rgba[4];
+    for (int c = 0; c < 3; ++c) rgba[c] = static_cast<unsigned char>(std::lround(std::clamp(colour[c], 0.0, 1.0) * 255));
+    rgba[3] = static_cast<unsigned char>(std::lround(opacity * 255));
+    colours_->InsertNextTypedTuple(rgba);
+  }
+  bool empty() const { return points_->GetNumberOfPoints() == 0; }
+  void give_to(vtkPolyData& data) const {
+    data.SetPoints(points_);
+    data.SetPolys(cells_);
+    data.GetCellData()->SetScalars(colours_);
+  }
+
+ private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> cells_;
+  vtkNew<vtkUnsignedCharArray> colours_;
+};
 
 }  // namespace
 
@@ -84,31 +110,24 @@ int marker_at(const std::vector<Marker>& markers, const ScreenMap& map, double x
 
 struct EditMarkers::Impl {
   std::vector<Marker> markers;
-  vtkNew<vtkPolyData> balls, lines;
-  vtkNew<vtkPointGaussianMapper> ball_mapper;
+  vtkNew<vtkPolyData> discs, lines;
+  vtkNew<vtkPolyDataMapper2D> disc_mapper;
   vtkNew<vtkPolyDataMapper> line_mapper;
-  vtkNew<vtkActor> ball_actor, line_actor;
+  vtkNew<vtkActor2D> disc_actor;
+  vtkNew<vtkActor> line_actor;
 };
 
 EditMarkers::EditMarkers(vtkRenderer& renderer) : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
-  m.ball_mapper->SetInputData(m.balls);
-  m.ball_mapper->EmissiveOff();
-  m.ball_mapper->SetScaleFactor(1);
-  m.ball_mapper->SetScaleArray("radius");
-  m.ball_mapper->SetTriangleScale(1.5);
-  m.ball_mapper->SetSplatShaderCode(kBall);
-  m.ball_mapper->SetColorModeToDirectScalars();
-  m.ball_actor->SetMapper(m.ball_mapper);
-  m.ball_actor->ForceTranslucentOn();
-  m.ball_actor->GetProperty()->SetAmbient(1);
-  m.ball_actor->GetProperty()->SetDiffuse(0);
+  m.disc_mapper->SetInputData(m.discs);
+  m.disc_mapper->SetScalarModeToUseCellData();
+  m.disc_actor->SetMapper(m.disc_mapper);
   m.line_mapper->SetInputData(m.lines);
   m.line_actor->SetMapper(m.line_mapper);
   m.line_actor->GetProperty()->LightingOff();
   m.line_actor->GetProperty()->SetLineWidth(2);
   renderer.AddActor(m.line_actor);
-  renderer.AddActor(m.ball_actor);
+  renderer.AddActor2D(m.disc_actor);
   set_markers({});
   set_lines({});
 }
@@ -128,7 +147,8 @@ void EditMarkers::set_lines(const std::vector<MarkerLine>& lines) {
     if (line.points_m.size() < 2) continue;
     cells->InsertNextCell(static_cast<int>(line.points_m.size()));
     for (const glm::dvec3& p : line.points_m) cells->InsertCellPoint(points->InsertNextPoint(p.x, p.y, p.z));
-    colours->InsertNextTypedTuple(look_of(line.look).colour.data());
+    const glm::dvec3 c = 255.0 * look_of(line.look).colour;
+    colours->InsertNextTuple3(c.r, c.g, c.b);
   }
   Impl& m = *impl_;
   m.line_actor->SetVisibility(points->GetNumberOfPoints() > 0);
@@ -139,34 +159,26 @@ void EditMarkers::set_lines(const std::vector<MarkerLine>& lines) {
 
 void EditMarkers::fit(const ScreenMap& map, double unit) {
   Impl& m = *impl_;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkFloatArray> radius;
-  vtkNew<vtkUnsignedCharArray> colours;
-  radius->SetName("radius");
-  colours->SetNumberOfComponents(4);
-  colours->SetName("colour");
-  const auto add = [&](const Marker& marker, double radius_px, std::array<unsigned char, 3> c, unsigned char opacity) {
-    points->InsertNextPoint(marker.position_m.x, marker.position_m.y, marker.position_m.z);
-    radius->InsertNextValue(float(radius_px * unit * map.metres_per_pixel(marker.position_m)));
-    const unsigned char rgba[] = {c[0], c[1], c[2], opacity};
-    colours->InsertNextTypedTuple(rgba);
-  };
+  Discs discs;
   for (const Marker& marker : m.markers) {
     const Look look = look_of(marker.look);
-    const double r = look.radius_px * (marker.selected ? 1.25 : 1.0);
-    if (marker.look != MarkerLook::dot) {  // a shadow and a light rim: seen on any ground
-      add(marker, r + (marker.selected ? 6.0 : 4.2), {30, 34, 40}, marker.selected ? 230 : 90);
-      add(marker, r + (marker.selected ? 3.4 : 2.2), {255, 255, 255}, 255);
+    const glm::dvec3 px = map.pixel(marker.position_m);
+    if (px.z < -1 || px.z > 1) continue;
+    const glm::dvec2 at(px.x, map.height_px - px.y);
+    const double r = look.radius_px * (marker.selected ? 1.25 : 1.0) * unit;
+    if (marker.look == MarkerLook::dot) {
+      discs.add(at, r, look.colour, 1);
+      continue;
     }
-    add(marker, r, look.colour, 255);
+    // A shadow and a light rim, so that it is seen on any ground; a ball that is lit from the upper left.
+    discs.add(at, r + (marker.selected ? 5.5 : 3.4) * unit, {0.10, 0.12, 0.14}, marker.selected ? 0.9 : 0.35);
+    discs.add(at, r + (marker.selected ? 3.2 : 2.0) * unit, {1, 1, 1}, 1);
+    discs.add(at, r, 0.82 * look.colour, 1);
+    discs.add(at + glm::dvec2(-0.10, 0.10) * r, 0.82 * r, look.colour, 1);
+    discs.add(at + glm::dvec2(-0.28, 0.28) * r, 0.36 * r, glm::mix(look.colour, glm::dvec3(1.0), 0.45), 0.9);
   }
-  vtkNew<vtkCellArray> cells;
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) cells->InsertNextCell(1, &i);
-  m.ball_actor->SetVisibility(points->GetNumberOfPoints() > 0);
-  m.balls->SetPoints(points);
-  m.balls->SetVerts(cells);
-  m.balls->GetPointData()->SetScalars(colours);
-  m.balls->GetPointData()->AddArray(radius);
+  m.disc_actor->SetVisibility(!discs.empty());
+  discs.give_to(*m.discs);
 }
 
 }  // namespace witherfield::vis

@@ -25,7 +25,16 @@
 namespace witherfield::vis {
 namespace {
 
-// Seen from below a leaf is paler and greyer than from above (spongy tissue scatters): after all light is summed.
+// The light of the editor: a warm one from the upper left, a cool one from the right, both fixed to the eye, on either side of
+// the sheet. It stands in for VTK's own light, which takes powers for each light and pixel: half of a frame where a processor
+// draws. `normalVCVSOutput` looks to the eye.
+constexpr const char* kLight =
+    "  float key = max(dot(normalVCVSOutput, vec3(-0.406, 0.628, 0.664)), 0.0);\n"
+    "  float fill = max(dot(normalVCVSOutput, vec3(0.786, -0.087, 0.612)), 0.0);\n"
+    "  float gloss = key * key; gloss *= gloss; gloss *= gloss;\n"
+    "  vec3 light = vec3(0.30) + key * vec3(0.76, 0.74, 0.70) + fill * vec3(0.24, 0.26, 0.29);\n"
+    "  gl_FragData[0] = vec4(diffuseColor * light + 0.06 * gloss, opacity);\n";
+// Seen from below a leaf is paler and greyer than from above (spongy tissue scatters).
 constexpr const char* kUnderside =
     "//VTK::TCoord::Impl\n"
     "  if (!gl_FrontFacing) {\n"
@@ -45,8 +54,7 @@ struct EditSurface::Impl {
   vtkNew<vtkFloatArray> coordinates, normals;
   vtkNew<vtkUnsignedCharArray> colours;
   vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkActor> actor, edges;
-  vtkNew<vtkPolyDataMapper> edge_mapper;
+  vtkNew<vtkActor> actor;
   vtkNew<vtkTexture> texture;
   bool has_picture = false, by_field = false;
   SurfaceStyle style = SurfaceStyle::smooth;
@@ -94,31 +102,18 @@ EditSurface::EditSurface(vtkRenderer& renderer) : impl_(std::make_unique<Impl>()
   m.mapper->SetColorModeToDirectScalars();
   m.actor->SetMapper(m.mapper);
   vtkProperty* p = m.actor->GetProperty();
-  p->SetAmbient(0.30);
-  p->SetDiffuse(0.80);
-  p->SetSpecular(0.10);
-  p->SetSpecularPower(18);
-  p->SetInterpolationToPhong();
+  p->SetAmbient(0);
+  p->SetDiffuse(1);
+  p->SetSpecular(0);
+  p->SetEdgeColor(0.07, 0.15, 0.09);
+  p->SetLineWidth(1);
+  m.actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true, kLight, true);
   m.actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::TCoord::Impl", true, kUnderside, false);
   m.texture->InterpolateOn();
-  m.texture->MipmapOn();
   m.texture->RepeatOff();
   m.texture->EdgeClampOn();
-  // The mesh over the smooth surface: drawn a second time, as lines.
-  m.edge_mapper->SetInputData(m.data);
-  m.edge_mapper->ScalarVisibilityOff();
-  m.edge_mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  m.edge_mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, -4);
-  m.edges->SetMapper(m.edge_mapper);
-  m.edges->GetProperty()->SetRepresentationToWireframe();
-  m.edges->GetProperty()->LightingOff();
-  m.edges->GetProperty()->SetColor(0.08, 0.16, 0.10);
-  m.edges->GetProperty()->SetOpacity(0.45);
-  m.edges->GetProperty()->SetLineWidth(1);
-  m.edges->VisibilityOff();
   m.actor->VisibilityOff();
   renderer.AddActor(m.actor);
-  renderer.AddActor(m.edges);
 }
 
 EditSurface::~EditSurface() = default;
@@ -181,12 +176,12 @@ void EditSurface::move(std::span<const glm::dvec3> position) {
 void EditSurface::set_style(SurfaceStyle style) {
   Impl& m = *impl_;
   m.style = style;
-  const bool any = !m.triangles.empty();
-  m.edges->SetVisibility(any && style == SurfaceStyle::edges);
+  vtkProperty* p = m.actor->GetProperty();
+  p->SetEdgeVisibility(style == SurfaceStyle::edges);
   if (style == SurfaceStyle::wireframe)
-    m.actor->GetProperty()->SetRepresentationToWireframe();
+    p->SetRepresentationToWireframe();
   else
-    m.actor->GetProperty()->SetRepresentationToSurface();
+    p->SetRepresentationToSurface();
 }
 
 void EditSurface::colour_by(std::span<const float> values, const ColourMap& map) {

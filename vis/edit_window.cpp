@@ -37,16 +37,6 @@ constexpr double kSettle_s = 0.18;   // after the last movement the picture is d
 constexpr double kTurn_s = 0.04;     // longest sleep of the loop
 constexpr double kRecent_s = 0.75;   // over which frames a second are averaged
 
-void add_light(vtkRenderer& renderer, double right, double up, double back, double strength, const glm::dvec3& colour) {
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToCameraLight();
-  light->SetPosition(right, up, back);
-  light->SetFocalPoint(0, 0, 0);
-  light->SetIntensity(strength);
-  light->SetColor(colour.r, colour.g, colour.b);
-  renderer.AddLight(light);
-}
-
 struct Box {
   glm::dvec3 lo{0.0}, hi{0.0};
   bool empty = true;
@@ -145,8 +135,10 @@ EditWindow::Impl::Impl(const EditWindowOptions& o) : options(o), width(o.width_p
   back->GradientBackgroundOn();
   back->SetBackground(0.830, 0.855, 0.865);
   back->SetBackground2(0.975, 0.982, 0.985);
-  add_light(*back, -0.55, 0.85, 0.9, 0.92, {1.0, 0.98, 0.93});
-  add_light(*back, 0.9, -0.1, 0.7, 0.34, {0.86, 0.92, 1.0});
+  // Surfaces light themselves, but only where there is a light do they get their normals.
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToHeadlight();
+  back->AddLight(light);
   beside = std::make_unique<EditSurface>(*back);
   surface = std::make_unique<EditSurface>(*back);
   markers = std::make_unique<EditMarkers>(*front);
@@ -389,7 +381,7 @@ void EditWindow::look_from(double azimuth_deg, double elevation_deg) {
   impl_->eye.azimuth_deg = azimuth_deg;
   impl_->eye.elevation_deg = elevation_deg;
   impl_->eye.focus_m = b.middle();
-  impl_->eye.reach_m = 0.78 * b.radius();
+  impl_->eye.reach_m = 0.70 * b.radius();
   impl_->dirty = true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -96,7 +97,7 @@ TEST_F(EditSessionTest, ANewHandleLeavesTheShape) {
     drag(s, s.add_handle(tip(s)), {0, 0.01, 0.02});
     const auto before = s.positions();
     s.add_handle(s.model().border[s.model().border.size() / 4]);
-    EXPECT_LT(farthest(s.positions(), before), 2e-4) << int(mode);
+    EXPECT_LT(farthest(s.positions(), before), 1e-3) << int(mode);  // what it holds around it is made to move alike
   }
 }
 
@@ -165,10 +166,14 @@ TEST_F(EditSessionTest, MovingAnOutlinePointRebuildsTheLeaf) {
   const glm::dvec3 from = s.place(p), out = from + glm::dvec3(0, 0.012, 0);
   s.begin();
   s.move_point(p, out);
-  EXPECT_LT(s.flat_leaf().position_m.size(), s.model().flat.position_m.size());  // a quick one while it moves
+  const auto reaches = [&](const EditSession::Positions& flat) {  // the margin goes through the point, give or take a tooth
+    return std::any_of(flat.begin(), flat.end(), [&](const glm::dvec3& q) { return glm::distance(q, out) < 0.003; });
+  };
+  EXPECT_FALSE(reaches(s.model().flat.position_m));
+  EXPECT_TRUE(reaches(s.flat_leaf().position_m));  // follows before the button is up
   s.end();
-  EXPECT_EQ(s.flat_leaf().position_m.size(), s.model().flat.position_m.size());
-  EXPECT_GT(s.model().area_m2, area * 1.01);
+  EXPECT_TRUE(reaches(s.model().flat.position_m));
+  EXPECT_GT(s.model().area_m2, area * 1.004);
   EXPECT_NEAR(s.place(p).y, out.y, 1e-8);
   // The edit is made on the new leaf.
   EXPECT_NEAR(s.handle_place(1).z - s.positions()[std::size_t(tip(s))].z, 0, 1e-3);
