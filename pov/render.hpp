@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "pov/hdr.hpp"
 #include "sim/core/progress.hpp"
 
 namespace witherfield::pov {
@@ -25,5 +26,14 @@ struct RenderResult {
 /// picture cannot be written; nothing half-written stays.
 RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png,
                           const RenderOptions& options, const Progress& progress = {});
+
+/// The same picture as scene radiance, before tone mapping, and the exposure that its scene asks for.
+struct Radiance {
+  HdrImage image;
+  double exposure = 1;
+  std::string look;
+};
+/// @throws IoFailure as above.
+Radiance render_radiance(const std::filesystem::path& scene, const RenderOptions& options, const Progress& progress = {});
 
 }  // namespace witherfield::pov

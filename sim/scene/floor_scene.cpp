@@ -4,6 +4,7 @@
 #include "sim/scene/floor_keys.hpp"
 #include "sim/scene/key_writers.hpp"
 #include "sim/scene/kinds.hpp"
+#include "sim/scene/resolved.hpp"
 #include "sim/scene/toml_reader.hpp"
 
 namespace witherfield::scene {
@@ -29,15 +30,18 @@ void shrink_to_preview(FloorScene& s) {
   }
 }
 
+FloorScene read_scene(const TomlFile& file) {
+  FloorTables blank, tables;
+  file.read([&](KeyVisitor& v) { describe_floor_scene(v, tables); },
+            key_paths([&](KeyVisitor& v) { describe_floor_scene(v, blank); }));
+  return tables.scene;
+}
+
 }  // namespace
 
 FloorScene load_floor_scene(const std::string& path, bool preview) {
   expect_kind(path, "floor");
-  const TomlFile file(path);
-  FloorTables blank, tables;
-  file.read([&](KeyVisitor& v) { describe_floor_scene(v, tables); },
-            key_paths([&](KeyVisitor& v) { describe_floor_scene(v, blank); }));
-  FloorScene& scene = tables.scene;
+  FloorScene scene = read_scene(TomlFile(path));
   const std::filesystem::path place(path);
   if (scene.name.empty()) scene.name = place.stem().string();
   for (std::string& mask : scene.mask_files) mask = resolved_path(mask, place.parent_path());
@@ -64,6 +68,10 @@ std::string resolved_json(const FloorScene& scene) {
   FloorTables tables;
   tables.scene = scene;
   return values_json([&](KeyVisitor& v) { describe_floor_scene(v, tables); }, {"view"});
+}
+
+FloorScene floor_scene_of(const std::string& json, const std::string& what) {
+  return read_scene(TomlFile::from_json(json, what));
 }
 
 }  // namespace witherfield::scene

@@ -13,6 +13,10 @@ class TomlFile {
  public:
   /// @throws IoFailure (cannot read), InvalidInput with the line (not TOML).
   explicit TomlFile(const std::string& path);
+  /// The same from JSON text (a resolved scene). Empty lists count as not stated. @param what named in messages.
+  /// @throws InvalidInput when it is no JSON object.
+  static TomlFile from_json(const std::string& text, const std::string& what);
+  TomlFile(TomlFile&&) noexcept;
   ~TomlFile();
 
   /// Visits all keys with a reader of this file; afterwards any key of the file that was not described is an
@@ -26,6 +30,7 @@ class TomlFile {
 
  private:
   struct Impl;
+  explicit TomlFile(std::unique_ptr<const Impl> impl);
   std::unique_ptr<const Impl> impl_;
 };
 
