@@ -111,7 +111,9 @@ class KeyPictures {
     const fs::path file = write_scene(scratch, moment);
     pov::HdrImage image;
     try {
-      image = pov::render_radiance(file, request_.render,
+      pov::RenderOptions render = request_.render;
+      render.even_samples = true;
+      image = pov::render_radiance(file, render,
                                    [&](std::string_view, double fraction) { bar_(stage, fraction); })
                   .image;
     } catch (...) {

@@ -25,7 +25,7 @@ struct RemoveAtExit {
 };
 
 /// Media are smooth by themselves; thin blades need many samples; depth of field brings its own.
-std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
+std::vector<std::string> antialiasing(const SceneHead& head, Quality quality, bool even) {
   if (head.depth_of_field) return {"-A"};
   if (head.look == "texel") {
     if (quality == Quality::final || (quality == Quality::good && !head.field))
@@ -33,7 +33,7 @@ std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
     return {"-A"};
   }
   // Awns and margins are thinner than a pixel and all else is cheap: every pixel gets all its samples.
-  if (head.look == "object")
+  if (head.look == "object" || even)
     return {"+AM1", "+A0.0", quality == Quality::draft ? "+R2" : quality == Quality::good ? "+R3" : "+R5", "-J"};
   switch (quality) {
     case Quality::draft:
@@ -65,7 +65,7 @@ Radiance render_radiance(const std::filesystem::path& scene, const RenderOptions
                                      "+H" + std::to_string(height),
                                      "Declare=QUALITY=" + std::to_string(int(options.quality))};
   if (options.threads > 0) arguments.push_back("+WT" + std::to_string(options.threads));
-  for (const std::string& a : antialiasing(head, options.quality)) arguments.push_back(a);
+  for (const std::string& a : antialiasing(head, options.quality, options.even_samples)) arguments.push_back(a);
   run_povray(folder, arguments, progress);
   Radiance out{decode_hdr(read_file(folder / raw), scene.stem().string() + ": what povray rendered"), head.exposure,
                head.look};

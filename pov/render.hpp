@@ -14,6 +14,9 @@ struct RenderOptions {
   int width_px = 0, height_px = 0;  ///< 0 = as the scene says
   Quality quality = Quality::good;
   int threads = 0;  ///< 0 = all
+  /// Every pixel gets all its samples, at the same places: pictures of a film must not differ by where the renderer
+  /// chose to look closer. Not for media and depth of field.
+  bool even_samples = false;
 };
 
 struct RenderResult {

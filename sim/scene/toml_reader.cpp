@@ -319,6 +319,7 @@ toml::table parse(const std::string& path) {
 using Json = nlohmann::ordered_json;
 
 toml::table table_of(const Json& object);
+toml::array array_of(const Json& items);
 
 /// Calls take(value) with the TOML value of a JSON one.
 template <class Take>
@@ -328,9 +329,13 @@ void take_value(const Json& json, const Take& take) {
   if (json.is_number_integer()) return take(json.get<std::int64_t>());
   if (json.is_number()) return take(json.get<double>());
   if (json.is_string()) return take(json.get<std::string>());
+  take(array_of(json));
+}
+
+toml::array array_of(const Json& items) {
   toml::array array;
-  for (const Json& item : json) take_value(item, [&](auto&& value) { array.push_back(std::move(value)); });
-  take(std::move(array));
+  for (const Json& item : items) take_value(item, [&](auto&& value) { array.push_back(std::move(value)); });
+  return array;
 }
 
 toml::table table_of(const Json& object) {
