@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/console.hpp"
+#include "cli/floor_pictures.hpp"
 #include "cli/floor_walk.hpp"
 #include "cli/footprint_file.hpp"
 #include "pov/png.hpp"
-#include "pov/room_scene.hpp"
 #include "sim/core/errors.hpp"
 #include "sim/floor/simulate.hpp"
 #include "sim/scene/scene.hpp"
@@ -25,36 +25,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-/// The treads of a flight laid out in its plan, one behind the other; a room's floor as it is.
-FloorField in_plan(std::span<const FloorField> floors) {
-  FloorField whole = floors.front();
-  for (const FloorField& tread : floors.subspan(1)) {
-    whole.ny += tread.ny;
-    for (FloorChannel& channel : whole.channels) {
-      const std::vector<float>& more = tread.at(channel.name);
-      channel.values.insert(channel.values.end(), more.begin(), more.end());
-    }
-  }
-  return whole;
-}
-
-pov::FloorMaterial material_of(const floor::MaterialOptions& m) {
-  const std::string top = m.layers.empty() ? "" : m.layers.front().name;
-  const auto has = [&](const char* word) { return top.find(word) != std::string::npos; };
-  if (has("varnish")) return pov::FloorMaterial::wood_varnished;
-  if (has("oak") || has("pine") || has("wood")) return pov::FloorMaterial::wood;
-  if (has("pvc") || has("linoleum")) return pov::FloorMaterial::vinyl;
-  if (has("porcelain") || has("tile")) return pov::FloorMaterial::tiles;
-  return pov::FloorMaterial::stone;
-}
-
-pov::ObstacleKind obstacle_of(const std::string& name) {
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  if (has("column") || has("pillar")) return pov::ObstacleKind::column;
-  if (has("cupboard") || has("cabinet") || has("shelf") || has("box")) return pov::ObstacleKind::cabinet;
-  return has("bench") ? pov::ObstacleKind::bench : pov::ObstacleKind::desk;
-}
 
 /// The user's own soles.
 void load_masks(scene::FloorScene& s) {
@@ -107,8 +77,8 @@ class FloorRun : public RunStages {
       const std::vector<FloorField>& floors = kept_.at(key_of(still.visits_share));
       const fs::path file =
           scene_.floor.stairs
-              ? pov::write_stair_scene(folder_.path() / "pov", stairs(still, floors), progress)
-              : pov::write_room_scene(folder_.path() / "pov", room(still, floors.front()), progress);
+              ? pov::write_stair_scene(folder_.path() / "pov", stair_input(scene_, still, floors), progress)
+              : pov::write_room_scene(folder_.path() / "pov", room_input(scene_, still, floors.front()), progress);
       bar(stage, 1);
       StillRecord record{still.still, {}};
       record.still.looks = {"room"};
@@ -214,50 +184,6 @@ class FloorRun : public RunStages {
     vis::write_table_vtp(folder_.path() / "footprints.vtp", table, compression);
     vis::write_table_csv(folder_.path() / "footprints.csv", table);
     vis::write_table_vtp(folder_.path() / "walks.vtp", walk_table(prints), compression);
-  }
-
-  pov::FloorLook look(const scene::RoomStill& still) const {
-    pov::FloorLook look;
-    look.material = material_of(scene_.floor.material);
-    look.pattern = scene_.floor.material.pattern;
-    look.relief_scale = still.relief_scale;
-    return look;
-  }
-
-  pov::RoomSceneInput room(const scene::RoomStill& still, const FloorField& floor) const {
-    const floor::RoomOptions& r = scene_.floor.room;
-    pov::RoomSceneInput in;
-    in.still = still.still;
-    in.floor = &floor;
-    in.look = look(still);
-    in.outline_m = r.outline_m;
-    in.wall_height_m = scene_.wall_height_m;
-    in.haze = still.haze;
-    for (const floor::Door& d : r.doors)
-      in.openings.push_back({pov::OpeningKind::door, d.a_m, d.b_m, 0, 2.03});
-    for (const scene::RoomWindow& w : scene_.windows)
-      in.openings.push_back({pov::OpeningKind::window, w.a_m, w.b_m, w.sill_m, w.height_m});
-    const double day = still.visits_share * scene_.floor.crowd.days;
-    for (std::size_t i = 0; i < r.obstacles.size(); ++i)
-      if (r.obstacles[i].from_day <= day && day <= r.obstacles[i].until_day)
-        in.obstacles.push_back(
-            {obstacle_of(r.obstacles[i].name), r.obstacles[i].outline_m, scene_.obstacle_height_m.at(i)});
-    for (const floor::Picture& p : r.pictures) in.pictures.push_back({p.at_m});
-    return in;
-  }
-
-  pov::StairSceneInput stairs(const scene::RoomStill& still, const std::vector<FloorField>& treads) const {
-    const floor::StairOptions& s = *scene_.floor.stairs;
-    pov::StairSceneInput in;
-    in.still = still.still;
-    in.treads = treads;
-    in.look.relief_scale = still.relief_scale;
-    in.look.material = material_of(scene_.floor.material);
-    in.going_m = s.going_m;
-    in.rise_m = s.rise_m;
-    in.width_m = s.width_m;
-    in.wall_height_m = scene_.wall_height_m;
-    return in;
   }
 
   void tell(const floor::FloorReport& r) {

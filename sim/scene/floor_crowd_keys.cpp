@@ -1,6 +1,8 @@
 // Keys of people and material: [crowd], [gait], [material].
 #include "sim/scene/floor_keys.hpp"
 
+#include <algorithm>
+
 namespace witherfield::scene {
 namespace {
 
@@ -30,8 +32,10 @@ void describe_layer(KeyVisitor& v, Layer& l) {
 
 void spread(KeyVisitor& v, const Key& key, Spread& s, const Limits& limits) {
   double four[4] = {s.mean, s.sd, s.lo, s.hi};
-  v.numbers(key, four, limits, Order::any);
+  // The standard deviation may be smaller than the least value.
+  v.numbers(key, four, {std::min(0.0, limits.lo), limits.hi, limits.unit}, Order::any);
   s = {four[0], four[1], four[2], four[3]};
+  v.check(key.name, s.lo >= limits.lo, [&] { return "mean, least and greatest must be " + limits_text(limits); });
   v.check(key.name, s.sd >= 0 && s.lo <= s.mean && s.mean <= s.hi, [] {
     return "must be [mean, standard deviation, least, greatest] with least <= mean <= greatest";
   });

@@ -4,6 +4,7 @@
 #include "sim/scene/floor_keys.hpp"
 #include "sim/scene/key_writers.hpp"
 #include "sim/scene/kinds.hpp"
+#include "sim/scene/resolved.hpp"
 #include "sim/scene/toml_reader.hpp"
 
 namespace witherfield::scene {
@@ -91,6 +92,10 @@ std::string with_line(const std::string& path, const std::string& message) {
   if (key.find('.') == std::string::npos || message.rfind(path, 0) == 0) return message;
   const int line = TomlFile(path).line_of(key);
   return line > 0 ? path + ":" + std::to_string(line) + ": " + message : path + ": " + message;
+}
+
+FloorScene floor_scene_of(const std::string& json, const std::string& what) {
+  return read_scene(TomlFile::from_json(json, what));
 }
 
 }  // namespace witherfield::scene

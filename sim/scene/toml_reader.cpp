@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/core/errors.hpp"
@@ -319,8 +320,47 @@ toml::table parse(const std::string& path) {
   return parse_text(text.str(), path);
 }
 
+using Json = nlohmann::ordered_json;
+
+toml::table table_of(const Json& object);
+toml::array array_of(const Json& items);
+
+/// Calls take(value) with the TOML value of a JSON one.
+template <class Take>
+void take_value(const Json& json, const Take& take) {
+  if (json.is_object()) return take(table_of(json));
+  if (json.is_boolean()) return take(json.get<bool>());
+  if (json.is_number_integer()) return take(json.get<std::int64_t>());
+  if (json.is_number()) return take(json.get<double>());
+  if (json.is_string()) return take(json.get<std::string>());
+  take(array_of(json));
+}
+
+toml::array array_of(const Json& items) {
+  toml::array array;
+  for (const Json& item : items) take_value(item, [&](auto&& value) { array.push_back(std::move(value)); });
+  return array;
+}
+
+toml::table table_of(const Json& object) {
+  toml::table table;
+  for (const auto& [key, json] : object.items()) {
+    if (json.is_null() || (json.is_array() && json.empty())) continue;
+    take_value(json, [&, &name = key](auto&& value) { table.insert_or_assign(name, std::move(value)); });
+  }
+  return table;
+}
+
 }  // namespace
 
+TomlFile TomlFile::from_json(const std::string& text, const std::string& what) {
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) throw InvalidInput(what + ": not a resolved scene (no JSON object)");
+  return TomlFile(std::make_unique<const Impl>(Impl{what, table_of(json)}));
+}
+
+TomlFile::TomlFile(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+TomlFile::TomlFile(TomlFile&&) noexcept = default;
 TomlFile::TomlFile(const std::string& path) : impl_(new Impl{path, parse(path)}) {}
 TomlFile::TomlFile(const std::string& text, const std::string& source)
     : impl_(new Impl{source, parse_text(text, source)}) {}

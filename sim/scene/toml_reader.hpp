@@ -15,6 +15,10 @@ class TomlFile {
   explicit TomlFile(const std::string& path);
   /// Of a text; `source` names it in messages.
   TomlFile(const std::string& text, const std::string& source);
+  /// The same from JSON text (a resolved scene). Empty lists count as not stated. @param what named in messages.
+  /// @throws InvalidInput when it is no JSON object.
+  static TomlFile from_json(const std::string& text, const std::string& what);
+  TomlFile(TomlFile&&) noexcept;
   ~TomlFile();
 
   /// Visits all keys with a reader of this file; afterwards any key of the file that was not described is an
@@ -31,6 +35,7 @@ class TomlFile {
 
  private:
   struct Impl;
+  explicit TomlFile(std::unique_ptr<const Impl> impl);
   std::unique_ptr<const Impl> impl_;
 };
 
