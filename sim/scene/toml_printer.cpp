@@ -43,7 +43,7 @@ class Printer : public KeyVisitor {
     line(key, quoted_list(allowed, "or"), quoted(value));
   }
   void texts(const Key& key, std::vector<std::string>& value, const Choices& allowed) override {
-    line(key, "any of " + quoted_list(allowed, "and"), bracketed(value, quoted));
+    line(key, allowed.empty() ? "" : "any of " + quoted_list(allowed, "and"), bracketed(value, quoted));
   }
   void numbers(const Key& key, std::span<double> values, const Limits& limits, Order) override {
     line(key, limits_text(limits), bracketed(values, number_text));

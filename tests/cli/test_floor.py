@@ -80,7 +80,7 @@ class Floor(ProgramTest):
             self.assertEqual((self.folder / a / name).read_bytes(), (self.folder / b / name).read_bytes(), name)
 
     def test_examples_preview(self):
-        for name, frames in (("patrol_gallery", 5), ("office_round_trips", 3), ("stone_stairs", 3)):
+        for name, frames in (("patrol_gallery", 3), ("office_round_trips", 3), ("stone_stairs", 3)):
             self.good("run", EXAMPLES / f"{name}.toml", "--preview", "-o", name)
             run = self.run_json(name)
             self.assertEqual(len(run["frames"]), frames)
@@ -117,7 +117,7 @@ class Floor(ProgramTest):
         self.assertEqual(run["walk"]["stuck"], 0)
         self.assertGreater(run["walk"]["footprints"], 3000)
         self.assertEqual(sorted(run["simulation_stages"]), ["footprint_masks", "look", "orientation_field", "stamp", "walk"])
-        self.assertEqual([f["visits"] for f in run["frames"]], [0, 150, 300])
+        self.assertEqual([f["numbers"]["visits"] for f in run["frames"]], [0, 150, 300])
         self.assertFalse((self.folder / "out/scene/footprints.bin").exists())
 
     def test_kept_footprints_give_the_same_floor(self):
@@ -180,7 +180,7 @@ class Floor(ProgramTest):
         self.good("run", self.scene(ROOM.replace("pixels_per_m = 50", 'pixels_per_m = 50\nmasks = ["sole.png"]\nmask_pixels_per_m = 75')))
         (self.folder / "even.png").write_bytes(png(20, 20, lambda x, y: 255))
         self.bad(2, "run", self.scene(ROOM.replace("pixels_per_m = 50", 'pixels_per_m = 50\nmasks = ["even.png"]')), "-o", "x",
-                 says=["scene.toml:22: footprints.masks", "even.png", "odd"])
+                 says=["scene.toml:21: footprints.masks", "even.png", "odd"])
 
     def test_resume(self):
         scene = self.scene(ROOM)
@@ -202,7 +202,7 @@ class Floor(ProgramTest):
                 ("[[0, 0], [6, 0], [6, 4], [0, 4]]", "[[0, 0], [6, 4], [6, 0], [0, 4]]",
                  "scene.toml:3: room.outline_m", "crosses itself"),
                 ("at_m = [3.0, 3.0]", "at_m = [3.0, 2.0]", "scene.toml:11: room.place[0]", "inside the obstacle"),
-                ("pixels_per_m = 50", "pixels_per_m = 50\nmask_size = 98", "scene.toml:22: footprints.mask_size", "odd"),
+                ("pixels_per_m = 50", "pixels_per_m = 50\nmask_size = 98", "scene.toml:21: footprints.mask_size", "odd"),
                 ("days = 100", "days = -1", "scene.toml:16: crowd.days", "days")):
             self.bad(2, "run", self.scene(ROOM.replace(old, new)), says=says)
             self.assertFalse((self.folder / "out").exists(), new)
