@@ -66,8 +66,8 @@ void film_floor(const FilmRequest& request, const RunSummary& run, Console& cons
 /// Other kinds: stills that differ in their time alone, one after another, none invented in between.
 void film_stills(const FilmRequest& request, const RunSummary& run, Console& console);
 
-/// Largest change of any value between neighbouring frames that passes: a value that goes through all 256 levels takes
-/// at least a quarter of the film; one level for rounding.
+/// Largest change between neighbouring frames that passes for 999 of 1000 values: going through all 256 levels takes at
+/// least a quarter of the film; one level for rounding.
 double neighbour_bound(const FilmRequest& request, int frames);
 
 }  // namespace witherfield::cli

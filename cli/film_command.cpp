@@ -24,8 +24,8 @@ constexpr const char* kFooter =
     "is rendered inside it and compared with the blend; the gap is divided until they differ by less than\n"
     "--blend-bound (root mean square, levels of 255). The clock is even: the picture changes by the same amount\n"
     "from frame to frame, so early wear, which goes fast, takes its time; --pace time lets visits pass evenly.\n"
-    "Checks (exit code 1 when one fails; the film stays): the blend error, the largest change of any value between\n"
-    "neighbouring frames (--bound), and that the difference from the first frame grows.\n\n"
+    "Checks (exit code 1 when one fails; the film stays): the blend error, the change between neighbouring frames\n"
+    "(--bound, 999 of 1000 values), and that the difference from the first frame grows.\n\n"
     "Grass, leaves, fruit: plants move, so nothing is blended; the stills that differ in `wd` alone are shown in\n"
     "the order of their weathering degree, each held for its share of the time.\n\n"
     "Ctrl-C leaves the rendered key pictures in film/NAME_keys; --resume goes on with them.\n"
@@ -86,8 +86,8 @@ void add_film_command(CLI::App& app, const bool& quiet) {
       ->capture_default_str();
   c->add_option("--keys", r.max_keys, "Most key pictures (floors)")->check(CLI::Range(3, 1000))->capture_default_str();
   c->add_option("--bound", r.neighbour_bound,
-                "Largest change of any value between neighbouring frames, levels of 255 (floors); "
-                "0 = 1 + 1020 / (frames - 1): no value runs through its range in less than a quarter of the film")
+                "Largest change between neighbouring frames, of 999 in 1000 values, levels of 255 (floors); "
+                "0 = 1 + 1020 / (frames - 1): nothing runs through its range in less than a quarter of the film")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();
   c->add_option("--verify", r.verify, "Render this many frames between the keys and compare (floors)")

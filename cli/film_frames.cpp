@@ -133,7 +133,7 @@ void finish_film(const FilmRequest& request, const FrameSource& source, const po
   j["seconds"] = source.count / request.frames_per_s;
   j["bytes"] = fs::file_size(film);
   j["made_in_s"] = seconds;
-  j["neighbour_difference_levels"] = {{"largest", watch.neighbour_max()}, {"mean_largest", watch.neighbour_mean_max()}};
+  j["neighbour_difference_levels"] = {{"p999", watch.neighbour_p999()}, {"largest", watch.neighbour_max()}, {"mean_largest", watch.neighbour_mean_max()}};
   j["difference_from_first_levels"] = growth_json(watch);
   j["detour"] = watch.detour();
   j.update(Json::parse(record.details));

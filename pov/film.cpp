@@ -157,14 +157,19 @@ void FrameWatch::add(std::span<const std::uint8_t> rgb) {
   if (frames_ > 0 && rgb.size() != last_.size()) throw InvalidInput("frames of a film must have one size");
   if (frames_++ == 0) first_.assign(rgb.begin(), rgb.end());
   std::int64_t step = 0, way = 0;
+  std::array<std::size_t, 256> count{};
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     const int d = last_.empty() ? 0 : std::abs(int(rgb[i]) - int(last_[i]));
     neighbour_max_ = std::max(neighbour_max_, d);
     step += d;
+    ++count[std::size_t(d)];
     way += std::abs(int(rgb[i]) - int(first_[i]));
   }
   const double n = double(std::max<std::size_t>(1, rgb.size())), mean = double(step) / n;
   neighbour_mean_max_ = std::max(neighbour_mean_max_, mean);
+  int p999 = 0;
+  for (std::size_t below = count[0]; double(below) < 0.999 * double(rgb.size()) && p999 < 255;) below += count[std::size_t(++p999)];
+  neighbour_p999_ = std::max(neighbour_p999_, p999);
   path_ += mean;
   from_first_.push_back(double(way) / n);
   highest_ = std::max(highest_, from_first_.back());

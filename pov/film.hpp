@@ -70,6 +70,8 @@ class FrameWatch {
 
   int frames() const { return frames_; }
   int neighbour_max() const { return neighbour_max_; }              ///< levels: largest change of any value in a frame
+  /// Levels: 999 of 1000 values change by no more, in every frame. What is left over are glints.
+  int neighbour_p999() const { return neighbour_p999_; }
   double neighbour_mean_max() const { return neighbour_mean_max_; } ///< levels: largest mean change of a frame
   double from_first() const { return from_first_.empty() ? 0 : from_first_.back(); }  ///< mean levels, last frame
   /// Mean difference from the first frame at every frame.
@@ -82,7 +84,7 @@ class FrameWatch {
  private:
   std::vector<std::uint8_t> first_, last_;
   std::vector<double> from_first_;
-  int frames_ = 0, neighbour_max_ = 0;
+  int frames_ = 0, neighbour_max_ = 0, neighbour_p999_ = 0;
   double neighbour_mean_max_ = 0, path_ = 0, highest_ = 0, largest_fall_ = 0;
 };
 

@@ -106,9 +106,10 @@ class Film(ProgramTest):
 
         frames = decoded(film, WIDTH, HEIGHT)
         self.assertEqual(len(frames), 50)
-        # The encoder is let to differ by a few levels of its own.
-        largest = max(max(abs(x - y) for x, y in zip(a, b)) for a, b in zip(frames, frames[1:]))
-        self.assertLessEqual(largest, BOUND + 8)
+        # 999 of 1000 values; the encoder may add a few levels of its own.
+        for a, b in zip(frames, frames[1:]):
+            changes = sorted(abs(x - y) for x, y in zip(a, b))
+            self.assertLessEqual(changes[len(changes) * 999 // 1000], BOUND + 6)
         steps = [mean_difference(a, b) for a, b in zip(frames, frames[1:])]
         growth = [mean_difference(frames[0], f) for f in frames]
         self.assertGreater(growth[-1], 2)  # the wear is seen
@@ -119,13 +120,12 @@ class Film(ProgramTest):
         told = json.loads((film.parent / "worn.json").read_text())
         self.assertEqual((told["frames"], told["size_px"]), (50, [WIDTH, HEIGHT]))
         self.assertTrue(all(c["passed"] for c in told["checks"].values()), told["checks"])
-        self.assertLessEqual(told["checks"]["neighbour_difference_max"]["value"], BOUND)
+        self.assertLessEqual(told["checks"]["neighbour_difference_p999"]["value"], BOUND)
         self.assertEqual(len(told["verified"]), 1)
         self.assertLessEqual(told["verified"][0]["rms"], 2)
         moments = [k["visits_share"] for k in told["keys"]]
         self.assertEqual((moments[0], moments[-1]), (0, 1))
         self.assertEqual(moments, sorted(moments))
-        self.assertLess(told["detour"], 1.2)
         self.assertIn("film/worn.mp4", done.stdout)
         head = (self.folder / "strip.png").read_bytes()[:24]
         self.assertEqual(struct.unpack(">II", head[16:24]), (3 * 80 + 12, 2 * 45 + 6))
@@ -136,7 +136,7 @@ class Film(ProgramTest):
     def test_a_bound_that_is_broken_is_an_error_and_the_frames_stay(self):
         self.good("run", self.scene(FLOOR))
         tiny = ["film", "out/room", "--seconds", "0.4", "--size", "48x28", "--quality", "draft", "--blend-bound", "20"]
-        self.bad(1, *tiny, "--bound", "0.5", "--keep-frames", says=["neighbour_difference_max"])
+        self.bad(1, *tiny, "--bound", "0.5", "--keep-frames", says=["neighbour_difference_p999"])
         frames = sorted((self.folder / "out/room/film/worn_frames").iterdir())
         self.assertEqual([f.name for f in frames], [f"frame_{i:04}.png" for i in range(10)])
         keys = list((self.folder / "out/room/film/worn_keys").glob("*.hdr"))

@@ -107,10 +107,22 @@ TEST(FrameWatch, SeesAFlickerAndAFall) {
   FrameWatch watch;
   for (std::uint8_t level : {10, 20, 12, 30}) watch.add(std::vector<std::uint8_t>(30, level));
   EXPECT_EQ(watch.neighbour_max(), 18);
+  EXPECT_EQ(watch.neighbour_p999(), 18);
   EXPECT_DOUBLE_EQ(watch.neighbour_mean_max(), 18);
   EXPECT_DOUBLE_EQ(watch.largest_fall(), 8);
   EXPECT_DOUBLE_EQ(watch.from_first(), 20);
   EXPECT_DOUBLE_EQ(watch.detour(), (10 + 8 + 18) / 20.0);
+}
+
+TEST(FrameWatch, OneGlintInAThousandIsToldApart) {
+  FrameWatch watch;
+  std::vector<std::uint8_t> frame(3000, 50);
+  watch.add(frame);
+  frame[7] = 250;
+  for (std::size_t i = 100; i < 200; ++i) frame[i] = 53;
+  watch.add(frame);
+  EXPECT_EQ(watch.neighbour_max(), 200);
+  EXPECT_EQ(watch.neighbour_p999(), 3);
 }
 
 TEST(Film, SizesAndMomentsAreChecked) {
