@@ -23,19 +23,9 @@ constexpr glm::vec3 kMargin{0.05f, 0.16f, 0.03f}, kMidrib{0.38f, 0.15f, 0.03f}, 
     kWire{0.06f, 0.11f, 0.05f}, kEar{0.62f, 0.03f, 0.02f}, kRepaired{0.05f, 0.16f, 0.55f},
     kDragged{0.03f, 0.12f, 0.60f}, kGhost{0.30f, 0.30f, 0.30f};
 
-/// Triangles with a vertex that no other triangle has: two of their edges lie on the border.
-std::vector<char> ears(const Surface& s) {
-  std::vector<int> used(s.position_m.size(), 0);
-  for (const Face& t : s.triangles)
-    for (const int v : t) ++used[std::size_t(v)];
-  std::vector<char> out;
-  for (const Face& t : s.triangles)
-    out.push_back(std::any_of(t.begin(), t.end(), [&](int v) { return used[std::size_t(v)] == 1; }));
-  return out;
-}
-
-std::vector<char> not_in(const Surface& now, const Surface& before) {
-  const std::set<Face> old(before.triangles.begin(), before.triangles.end());
+/// The triangles that the other mesh does not have.
+std::vector<char> not_in(const Surface& now, const Surface& other) {
+  const std::set<Face> old(other.triangles.begin(), other.triangles.end());
   std::vector<char> out;
   for (const Face& t : now.triangles)
     out.push_back(!old.count(t) && !old.count({t[1], t[2], t[0]}) && !old.count({t[2], t[0], t[1]}));
@@ -134,9 +124,10 @@ std::vector<Surface> stage_objects(const leaf::LeafModel& m) {
       out.push_back(of_lines(stage, i == 0, size));
     else if (last && i > 0 && !m.stages[i - 1].surface.triangles.empty())
       out.push_back(wired(stage.surface, not_in(stage.surface, m.stages[i - 1].surface), kRepaired, size));
+    else if (i + 2 == m.stages.size())
+      out.push_back(wired(stage.surface, not_in(stage.surface, m.stages[i + 1].surface), kEar, size));
     else
-      out.push_back(wired(stage.surface, i + 2 == m.stages.size() ? ears(stage.surface) : std::vector<char>(),
-                          kEar, size));
+      out.push_back(wired(stage.surface, {}, kEar, size));
     auto& organ = out.back().make_field("organ_id").values;
     std::fill(organ.begin(), organ.end(), float(kMarkerOrgan));
   }

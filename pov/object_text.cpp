@@ -55,8 +55,8 @@ std::string mesh_with(const LitMesh& m, std::span<const int> faces, double unit,
       points << "," << flip(glm::dvec3(m.vertices[std::size_t(v)].position_m), unit);
       normals << "," << flip(glm::dvec3(m.vertices[std::size_t(v)].normal));
     }
-    for (const int k : {0, 2, 1}) write_corner(corners, std::size_t(f), k);
-    indices << ",<" << number[std::size_t(t[0])] << "," << number[std::size_t(t[2])] << "," << number[std::size_t(t[1])] << ">";
+    for (const int k : {0, 1, 2}) write_corner(corners, std::size_t(f), k);
+    indices << ",<" << number[std::size_t(t[0])] << "," << number[std::size_t(t[1])] << "," << number[std::size_t(t[2])] << ">";
     uv_indices << ",<" << corner << "," << corner + 1 << "," << corner + 2 << ">";
     corner += 3;
   }
