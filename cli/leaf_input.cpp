@@ -1,6 +1,7 @@
 #include "cli/leaf_input.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -16,7 +17,8 @@ leaf::LeafInput read_leaf_input(const scene::LeafScene& s) {
     std::ostringstream text;
     text << in.rdbuf();
     if (!in) throw IoFailure("cannot read '" + s.leaf.points_file + "'");
-    input.points = leaf::parse_outline_csv(text.str(), s.leaf.points_file, s.points_unit);
+    const bool json = std::filesystem::path(s.leaf.points_file).extension() == ".json";
+    input.points = (json ? leaf::parse_outline_json : leaf::parse_outline_csv)(text.str(), s.leaf.points_file, s.points_unit);
   }
   if (s.leaf.source == leaf::LeafSource::mesh) {
     vis::MeshFile file = vis::read_mesh_file(s.leaf.mesh_file);

@@ -126,10 +126,19 @@ class Builder {
   LeafOptions o_;
 };
 
+/// To the nearest multiple of a nanometre or so. The same leaf measured elsewhere differs in its last bits only, and the refinement of a
+/// symmetric leaf has many ties that those bits would decide: without them it gets the same triangles wherever it stands.
+void snap(std::vector<dvec3>& line) {
+  constexpr double kPerMetre = double(1 << 30);
+  for (dvec3& p : line) p = glm::round(p * kPerMetre) / kPerMetre;
+}
+
 Curves Builder::splines(const OutlinePoints& p, bool measured) {
   const CubicSpline left(p.left_m), right(p.right_m), midrib(p.midrib_m);
   const double spacing = o_.mesh.outline_spacing_m;
   Curves c{left.sample(spacing, 8, kMaxTurn), right.sample(spacing, 8, kMaxTurn), midrib.sample(o_.mesh.vein_edge_m, 4)};
+  if (measured)
+    for (std::vector<dvec3>* line : {&c.left, &c.right, &c.midrib}) snap(*line);
   if (measured || o_.margin.tooth_depth_m <= 0) return c;
   for (const bool is_left : {true, false}) {
     Random random(o_.seed, Stream::outline, is_left ? kTeethLeft : kTeethRight);
