@@ -27,10 +27,11 @@ namespace {
 
 // The light of the editor: a warm one from the upper left, a cool one from the right, both fixed to the eye, on either side of
 // the sheet. It stands in for VTK's own light, which takes powers for each light and pixel: half of a frame where a processor
-// draws. `normalVCVSOutput` looks to the eye.
+// draws. Both sides are lit: the normal is turned to the eye.
 constexpr const char* kLight =
-    "  float key = max(dot(normalVCVSOutput, vec3(-0.406, 0.628, 0.664)), 0.0);\n"
-    "  float fill = max(dot(normalVCVSOutput, vec3(0.786, -0.087, 0.612)), 0.0);\n"
+    "  vec3 n = normalVCVSOutput.z < 0.0 ? -normalVCVSOutput : normalVCVSOutput;\n"
+    "  float key = max(dot(n, vec3(-0.406, 0.628, 0.664)), 0.0);\n"
+    "  float fill = max(dot(n, vec3(0.786, -0.087, 0.612)), 0.0);\n"
     "  float gloss = key * key; gloss *= gloss; gloss *= gloss;\n"
     "  vec3 light = vec3(0.30) + key * vec3(0.76, 0.74, 0.70) + fill * vec3(0.24, 0.26, 0.29);\n"
     "  gl_FragData[0] = vec4(diffuseColor * light + 0.06 * gloss, opacity);\n";
