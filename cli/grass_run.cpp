@@ -123,9 +123,6 @@ class GrassRun : public RunStages {
 
   void write_pictures() override {
     if (hill_) write_hill(folder_, *hill_);
-    if (scene_.output.fields)
-      vis::write_paraview_script(folder_.path() / "view_in_paraview.py", ranges_of(record_),
-                                 hill_.has_value());
     if (!scene_.output.pov || scene_.stills.empty()) return;
     clock_.start("write POV-Ray scenes");
     for (std::size_t i = 0; i < scene_.stills.size(); ++i) {

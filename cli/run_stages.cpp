@@ -6,6 +6,7 @@
 #include "sim/core/errors.hpp"
 #include "sim/core/parallel.hpp"
 #include "vis/atomic_file.hpp"
+#include "vis/writers.hpp"
 
 namespace witherfield::cli {
 namespace {
@@ -30,7 +31,7 @@ void print_summary(const RunRecord& record, const RunFolder& folder, Console& co
                           size_text(bytes)));
   if (!record.stills.empty()) console.say("  pictures:  witherfield render " + where);
   const fs::path series = folder.path() / (record.kind + ".pvd");
-  if (fs::exists(series)) console.say("  data:      paraview " + series.string());
+  if (fs::exists(series)) console.say("  data:      paraview --script=" + where + "/view_in_paraview.py");
 }
 
 /// The run is whole, and stays; but the caller must hear of it.
@@ -71,6 +72,8 @@ void carry_out(const RunRequest& request, const std::string& kind, const std::st
     folder.begin(signature, request.force);
     run->simulate(std::move(whole));
     run->write_pictures();
+    if (fs::exists(folder.path() / (kind + ".pvd")))
+      vis::write_paraview_script(folder.path() / "view_in_paraview.py", kind, ranges_of(record));
     finish(folder, record);
   } catch (...) {
     // Whole key frames stay for --resume; without any there is nothing to keep.

@@ -60,8 +60,9 @@ ValueRanges write_floor_vti(const std::filesystem::path& file, const FloorField&
 /// .pvd time series. Entries are (days, path relative to the .pvd).
 void write_pvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& entries);
 
-/// A ParaView start-up script (Python) that opens the series, fixes the colour scales to `ranges`, shows
-/// water with units, day and wd.
-void write_paraview_script(const std::filesystem::path& file, const ValueRanges& ranges, bool has_terrain);
+/// A ParaView start-up script (Python) for a run's <kind>.pvd: fixes the colour scales to `ranges`, shows one field
+/// (water of grass and leaves, moisture of fruit, wear of floors) with its unit, the day and wd; and the terrain of
+/// grass, where there is one. @param kind grass, leaf, fruit, floor. @throws InvalidInput for any other, IoFailure.
+void write_paraview_script(const std::filesystem::path& file, const std::string& kind, const ValueRanges& ranges);
 
 }  // namespace witherfield::vis

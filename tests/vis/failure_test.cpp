@@ -34,7 +34,7 @@ const std::vector<std::pair<const char*, Write>>& writers() {
          write_pvd(f, {{0, "a.vti"}});
        }},
       {"v.py", [](const auto& f) {
-         write_paraview_script(f, {{"water", {0, 1}}}, true);
+         write_paraview_script(f, "grass", {{"water", {0, 1}}});
        }}};
   return all;
 }
