@@ -69,7 +69,7 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& bloc
 /// as sharp as the interpolated density is smooth; radiance is kept apart and carried two voxels outward, so that the
 /// edge does not darken.
 struct SharpEdge {
-  double none = 0.1, full = 0.4;
+  double none = 0.13, full = 0.55;
 };
 MediaNames declare_sharp(Text& scene, const SceneContext& c, const MediaBlock& block, const MediaSamples& samples,
                          const SharpEdge& edge, const std::string& name);

@@ -11,6 +11,7 @@ constexpr std::uint32_t kWord = sizeof(std::uint32_t);
 constexpr std::uint32_t kFarthest = 65535 / kWord;  // a match looks back at most 65,535 bytes
 // The format's end: a match starts at least 12 bytes before it, and the last 5 bytes are literals.
 constexpr std::uint32_t kNoMatchStart = 12 / kWord, kLastLiterals = 2;
+constexpr std::size_t kMostZeros = 8;  // literal zeros beyond one per value: those of the end
 
 /// Sequences of the format: literals, then a copy of what stands `back` words before.
 class Sequences {
@@ -19,8 +20,11 @@ class Sequences {
     // Every word costs at most itself, a copy of zeros (5 bytes with its literal zero) and its lengths' share.
     out_.resize(words * 4 * kWord + count * kWord / 250 + 64);
     at_ = out_.data();
+    thread_local std::vector<std::uint32_t> buffer;  // a vector that grows word by word costs more than all the rest
+    if (buffer.size() < 2 * words + kMostZeros) buffer.resize(2 * words + kMostZeros);
+    first_ = last_ = buffer.data();
   }
-  void literal(std::uint32_t word) { literals_.push_back(word); }
+  void literal(std::uint32_t word) { *last_++ = word; }
   void copy(std::uint32_t back, std::uint32_t words) {
     const std::uint32_t length = words * kWord - 4, offset = back * kWord;
     char* token = begin();
@@ -38,12 +42,12 @@ class Sequences {
   /// Token and literals; returns where the token stands.
   char* begin() {
     char* token = at_++;
-    const auto bytes = static_cast<std::uint32_t>(literals_.size() * kWord);
+    const auto bytes = static_cast<std::uint32_t>(last_ - first_) * kWord;
     *token = static_cast<char>(std::min(bytes, 15u) << 4);
     more(bytes);
-    if (bytes) std::memcpy(at_, literals_.data(), bytes);
+    std::memcpy(at_, first_, bytes);
     at_ += bytes;
-    literals_.clear();
+    last_ = first_;
     return token;
   }
   /// What of a length does not fit the token's four bits.
@@ -54,8 +58,8 @@ class Sequences {
   }
 
   std::vector<char>& out_;
-  std::vector<std::uint32_t> literals_;
   char* at_;
+  std::uint32_t *first_, *last_;  // literals not yet written
 };
 
 class Encoder {

@@ -101,16 +101,19 @@ XmlArray texel_array(const BlockPlan& plan, const TexelField& field, Values valu
   const bool bled = field.first != TexelChannel::density;
   const auto fill = [&](std::size_t block, SparseWords& out) {
     const std::vector<BlockPlan::Voxel>& places = plan.block(block);
-    out.at.reserve(places.size() * components);
-    out.value.reserve(places.size() * components);
+    out.at.resize(places.size() * components);
+    out.value.resize(out.at.size());
+    std::size_t n = 0;
     for (const BlockPlan::Voxel& v : places) {
       if (!bled && !BleedMap::is_filled(v.code)) continue;
       const std::size_t number = static_cast<std::size_t>(BleedMap::number(v.code));
-      for (std::size_t c = 0; c < components; ++c) {
-        out.at.push_back(static_cast<std::uint32_t>(v.at * components + c));
-        out.value.push_back(std::bit_cast<std::uint32_t>(values[c][number]));
+      for (std::size_t c = 0; c < components; ++c, ++n) {
+        out.at[n] = static_cast<std::uint32_t>(v.at * components + c);
+        out.value[n] = std::bit_cast<std::uint32_t>(values[c][number]);
       }
     }
+    out.at.resize(n);
+    out.value.resize(n);
   };
   return {std::string(field.name), "Float32", field.components,
           compress_sparse_blocks(plan.voxels() * components, plan.voxels_per_block() * components, compression, fill)};
