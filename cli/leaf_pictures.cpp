@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 
+#include "cli/leaf_input.hpp"
 #include "cli/markers.hpp"
 #include "sim/leaf/editor.hpp"
 #include "sim/leaf/leaf_colour.hpp"

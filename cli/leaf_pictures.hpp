@@ -8,9 +8,6 @@
 
 namespace witherfield::cli {
 
-/// organ_id of a leaf's surfaces; markers are what pictures add to them.
-inline constexpr int kBladeOrgan = 0, kPetioleOrgan = 1, kMarkerOrgan = 2, kStemOrgan = 3;
-
 /// @param model outlives the stills.
 ObjectLooks leaf_looks(const leaf::LeafModel& model);
 

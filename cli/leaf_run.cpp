@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "cli/console.hpp"
+#include "cli/leaf_input.hpp"
 #include "cli/leaf_pictures.hpp"
 #include "cli/object_writer.hpp"
 #include "sim/check/mesh_check.hpp"
@@ -29,39 +28,6 @@ namespace fs = std::filesystem;
 constexpr double kBalanceLimit = 1e-9;   // of the leaf's water, relative
 constexpr double kMidribLimit = 0.02;    // change of the midrib's length in wilting (docs/physics.md)
 
-leaf::LeafInput read_input(const scene::LeafScene& s) {
-  leaf::LeafInput input;
-  if (s.leaf.source == leaf::LeafSource::points) {
-    std::ifstream in(s.leaf.points_file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in) throw IoFailure("cannot read '" + s.leaf.points_file + "'");
-    const bool json = fs::path(s.leaf.points_file).extension() == ".json";
-    input.points = (json ? leaf::parse_outline_json : leaf::parse_outline_csv)(text.str(), s.leaf.points_file, s.points_unit);
-  }
-  if (s.leaf.source == leaf::LeafSource::mesh) {
-    vis::MeshFile file = vis::read_mesh_file(s.leaf.mesh_file);
-    if (file.length_unit.empty())
-      for (glm::dvec3& p : file.surface.position_m) p *= s.mesh_unit_mm * 1e-3;
-    input.mesh = std::move(file.surface);
-  }
-  return input;
-}
-
-/// Blade and petiole as one surface with organ_id.
-Surface whole_leaf(const leaf::LeafModel& model, const std::vector<glm::dvec3>& position_m) {
-  Surface s = leaf::to_surface(model, position_m);
-  s.make_field("organ_id");
-  std::fill(s.make_field("chlorophyll_ug_cm2").values.begin(),
-            s.make_field("chlorophyll_ug_cm2").values.end(), float(model.chlorophyll_ug_cm2));
-  Surface petiole = leaf::petiole_surface(model.petiole);
-  if (petiole.triangles.empty()) return s;
-  auto& organ = petiole.make_field("organ_id").values;
-  std::fill(organ.begin(), organ.end(), float(kPetioleOrgan));
-  append(s, petiole);
-  return s;
-}
-
 struct KeyFrame {
   double wd = 0, time_days = 0;
   Surface surface;
@@ -79,7 +45,7 @@ class LeafRun : public RunStages {
   void prepare() override {
     leaf::validate(scene_.leaf);
     clock_.start("build");
-    model_ = leaf::build_leaf(scene_.leaf, read_input(scene_));
+    model_ = leaf::build_leaf(scene_.leaf, read_leaf_input(scene_));
     clock_.start("");
     console_.note(
         fmt::format("leaf of {} vertices, {:.1f} cm2", model_.flat.position_m.size(), model_.area_m2 * 1e4));

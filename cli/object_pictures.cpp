@@ -35,6 +35,7 @@ pov::ObjectSceneInput scene_of(const ObjectStill& still, const std::vector<Surfa
     object.surface = &surface;
     object.pitch_deg = still.pitch_deg;
     object.yaw_deg = still.yaw_deg;
+    object.facets = still.subject == "subdivision";  // a mesh shows as what it is
     object.looks = looks.by_organ;
     object.other_look = looks.other;
   }

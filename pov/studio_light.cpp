@@ -25,6 +25,23 @@ glm::dvec2 r2_point(int i) {
   return {x - std::floor(x), y - std::floor(y)};
 }
 
+/// Points of a box in -1/2..1/2, the outermost ones and the middle first: where those are all free, or none, so are
+/// all. (With evenly spread ones first, a penumbra would begin with a jump.)
+std::vector<glm::dvec2> box_points() {
+  std::vector<glm::dvec2> rest, points;
+  for (int i = 0; i < kBoxPoints; ++i) rest.push_back(r2_point(i) - 0.5);
+  for (const glm::dvec2 target : {glm::dvec2(-0.5, -0.5), {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {0, 0}, {0, -0.5},
+                                  {0, 0.5}, {-0.5, 0}, {0.5, 0}}) {
+    const auto nearest = std::min_element(rest.begin(), rest.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
+      return glm::distance(a, target) < glm::distance(b, target);
+    });
+    points.push_back(*nearest);
+    rest.erase(nearest);
+  }
+  points.insert(points.end(), rest.begin(), rest.end());
+  return points;
+}
+
 /// Directions spread evenly over the sphere (spherical Fibonacci points).
 std::vector<glm::vec3> sphere_directions(int n) {
   std::vector<glm::vec3> d;
@@ -83,10 +100,8 @@ class Gatherer {
   Gatherer(const Studio& studio, const SceneTree& tree)
       : studio_(studio), tree_(tree.tree), faces_(tree.faces), fine_(studio, kDirections), coarse_(studio, kCoarseDirections) {
     for (const Softbox& b : studio.boxes)
-      for (int i = 0; i < kBoxPoints; ++i) {
-        const glm::dvec2 q = r2_point(i) - 0.5;
+      for (const glm::dvec2& q : box_points())
         box_points_.push_back(glm::vec3(b.center_m + q.x * b.side_a_m + q.y * b.side_b_m));
-      }
   }
 
   struct Gathered {

@@ -241,8 +241,12 @@ void Builder::finish(LeafModel& m) const {
   // Held by the petiole: what lies within its end.
   const double radius = std::max(1.2 * o_.petiole_radius_m, 0.012 * o_.main_vein_m);
   const dvec3 foot = m.midrib.empty() ? m.flat.position_m[std::size_t(m.border.front())] : m.flat.position_m[std::size_t(m.midrib.front())];
-  for (std::size_t i = 0; i < n; ++i)
-    if (glm::distance(m.flat.position_m[i], foot) <= radius) m.base.push_back(int(i));
+  std::vector<std::pair<double, int>> near;
+  for (std::size_t i = 0; i < n; ++i) near.emplace_back(glm::distance(m.flat.position_m[i], foot), int(i));
+  constexpr std::size_t kLeast = 5;  // on coarse meshes the nearest ones, or the blade could turn about what holds it
+  std::sort(near.begin(), near.end());
+  for (std::size_t i = 0; i < n && (near[i].first <= radius || i < kLeast); ++i) m.base.push_back(near[i].second);
+  std::sort(m.base.begin(), m.base.end());
   const dvec3 at = m.natural.position_m[std::size_t(m.midrib.empty() ? m.border.front() : m.midrib.front())];
   if (o_.petiole_m > 0) {
     // From the stem upwards and forwards, in a shallow bow, to the blade's base.
@@ -349,6 +353,7 @@ LeafModel build_leaf(const LeafOptions& options, const LeafInput& input) {
   if (options.source == LeafSource::mesh) return builder.from_mesh(input.mesh);
   if (options.source == LeafSource::points) return builder.from_points(input.points, {}, true);
   VeinDraft draft = vein_draft(options);
+  if (!input.points.empty()) draft.points = input.points;  // the outline by hand; veins, margin and pose of the species
   return builder.from_points(std::move(draft.points), std::move(draft.veins), false);
 }
 

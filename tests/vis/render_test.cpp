@@ -13,6 +13,7 @@
 #include "sim/core/errors.hpp"
 #include "tests/vis/sample.hpp"
 #include "vis/colour_map.hpp"
+#include "vis/mesh_files.hpp"
 #include "vis/volume.hpp"
 #include "vis/writers.hpp"
 
