@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/console.hpp"
+#include "cli/floor_pictures.hpp"
+#include "cli/floor_walk.hpp"
+#include "cli/footprint_file.hpp"
 #include "pov/png.hpp"
-#include "pov/room_scene.hpp"
 #include "sim/core/errors.hpp"
 #include "sim/floor/simulate.hpp"
 #include "sim/scene/scene.hpp"
 #include "vis/atomic_file.hpp"
+#include "vis/table.hpp"
 #include "vis/writers.hpp"
 
 namespace witherfield::cli {
@@ -21,35 +25,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-/// The treads of a flight laid out in its plan, one behind the other; a room's floor as it is.
-FloorField in_plan(std::span<const FloorField> floors) {
-  FloorField whole = floors.front();
-  for (const FloorField& tread : floors.subspan(1)) {
-    whole.ny += tread.ny;
-    for (FloorChannel& channel : whole.channels) {
-      const std::vector<float>& more = tread.at(channel.name);
-      channel.values.insert(channel.values.end(), more.begin(), more.end());
-    }
-  }
-  return whole;
-}
-
-pov::FloorMaterial material_of(const floor::MaterialOptions& m) {
-  const std::string top = m.layers.empty() ? "" : m.layers.front().name;
-  const auto has = [&](const char* word) { return top.find(word) != std::string::npos; };
-  if (has("varnish")) return pov::FloorMaterial::wood_varnished;
-  if (has("oak") || has("pine") || has("wood")) return pov::FloorMaterial::wood;
-  if (has("pvc") || has("linoleum")) return pov::FloorMaterial::vinyl;
-  if (has("porcelain") || has("tile")) return pov::FloorMaterial::tiles;
-  return pov::FloorMaterial::stone;
-}
-
-pov::ObstacleKind obstacle_of(const std::string& name) {
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  if (has("column") || has("pillar")) return pov::ObstacleKind::column;
-  return has("bench") ? pov::ObstacleKind::bench : pov::ObstacleKind::desk;
-}
 
 /// The user's own soles.
 void load_masks(scene::FloorScene& s) {
@@ -77,18 +52,16 @@ class FloorRun : public RunStages {
   void prepare() override { floor::validate(scene_.floor); }
 
   void simulate(std::vector<FrameRecord>) override {
-    clock_.start("walk, wear and write");
     if (scene_.output.fields) make_folder("floor");
-    const Progress bar = console_.progress();
-    const floor::FloorReport report = floor::simulate(
-        scene_.floor, [&](const floor::FloorFrame& frame) { take(frame); },
-        [&](std::string_view, double fraction) { bar("walking", fraction); });
-    bar("walking", 1);
+    const floor::FloorReport report = needs_footprint_file(scene_) ? wear_kept() : walk_and_wear();
+    write_shown_visits();
+    clock_.start("write");
     std::vector<std::pair<double, std::string>> entries;
     for (const FrameRecord& f : record_.frames)
       if (!f.file("floor").empty()) entries.emplace_back(f.time_days, f.file("floor"));
     if (!entries.empty()) vis::write_pvd(folder_.path() / "floor.pvd", entries);
-    if (scene_.output.footprints) write_footprints();
+    if (needs_footprint_file(scene_) && !scene_.output.footprints && !scene_.walk.stretch)
+      fs::remove(footprint_file());  // a stretch is for its footprints
     tell(report);
     clock_.start("");
   }
@@ -104,8 +77,8 @@ class FloorRun : public RunStages {
       const std::vector<FloorField>& floors = kept_.at(key_of(still.visits_share));
       const fs::path file =
           scene_.floor.stairs
-              ? pov::write_stair_scene(folder_.path() / "pov", stairs(still, floors), progress)
-              : pov::write_room_scene(folder_.path() / "pov", room(still, floors.front()), progress);
+              ? pov::write_stair_scene(folder_.path() / "pov", stair_input(scene_, still, floors), progress)
+              : pov::write_room_scene(folder_.path() / "pov", room_input(scene_, still, floors.front()), progress);
       bar(stage, 1);
       StillRecord record{still.still, {}};
       record.still.looks = {"room"};
@@ -148,56 +121,69 @@ class FloorRun : public RunStages {
         kept_[key_of(share)].assign(frame.floors.begin(), frame.floors.end());
   }
 
-  void write_footprints() {
-    vis::AtomicFile file(folder_.path() / "footprints.bin");
-    floor::walk(scene_.floor, [&](std::span<const floor::Footprint> prints) {
-      check_interrupted();
-      file.write(prints.data(), prints.size_bytes());
-    });
-    file.commit();
+  fs::path footprint_file() const { return folder_.path() / "footprints.bin"; }
+
+  floor::FloorReport walk_and_wear() {
+    clock_.start("walk, wear and write");
+    const Progress bar = console_.progress();
+    const floor::FloorReport report = floor::simulate(
+        scene_.floor, [&](const floor::FloorFrame& frame) { take(frame); },
+        [&](std::string_view, double fraction) { bar("walking", fraction); });
+    bar("walking", 1);
+    return report;
   }
 
-  pov::FloorLook look(const scene::RoomStill& still) const {
-    pov::FloorLook look;
-    look.material = material_of(scene_.floor.material);
-    look.pattern = scene_.floor.material.pattern;
-    look.relief_scale = still.relief_scale;
-    return look;
+  /// Footprints first, as a file; then the floor from the file. Of a run that was broken off the whole file is still good.
+  floor::FloorReport wear_kept() {
+    clock_.start("walk");
+    const Progress bar = console_.progress();
+    floor::RetuneReport walked;
+    if (!fs::exists(footprint_file()))
+      walked = write_footprint_file(scene_, footprint_file(), check_interrupted,
+                                    [&](std::string_view, double fraction) { bar("walking", fraction); });
+    clock_.start("wear and write");
+    FootprintReader reader(footprint_file());
+    floor::FloorReport report = floor::wear_frames(
+        scene_.floor, reader.source(), [&](const floor::FloorFrame& frame) { take(frame); },
+        [&](std::string_view, double fraction) { bar("wearing", fraction); });
+    bar("wearing", 1);
+    const std::int64_t prints = report.walk.footprints;
+    report.walk = walked.walk;
+    report.walk.visits = walked.kept + walked.walked;
+    report.walk.footprints = prints;
+    record_.details.emplace_back("footprints",
+                                 Json{{"visits", {reader.visits().first, reader.visits().last}},
+                                      {"visits_taken", walked.kept},
+                                      {"visits_walked", walked.walked},
+                                      {"visits_dropped", walked.dropped}}
+                                     .dump());
+    if (!scene_.walk.footprint_files.empty())
+      console_.note(fmt::format("{} visits taken from earlier footprints, {} walked", walked.kept, walked.walked));
+    return report;
   }
 
-  pov::RoomSceneInput room(const scene::RoomStill& still, const FloorField& floor) const {
-    const floor::RoomOptions& r = scene_.floor.room;
-    pov::RoomSceneInput in;
-    in.still = still.still;
-    in.floor = &floor;
-    in.look = look(still);
-    in.outline_m = r.outline_m;
-    in.wall_height_m = scene_.wall_height_m;
-    in.haze = still.haze;
-    for (const floor::Door& d : r.doors)
-      in.openings.push_back({pov::OpeningKind::door, d.a_m, d.b_m, 0, 2.03});
-    for (const scene::RoomWindow& w : scene_.windows)
-      in.openings.push_back({pov::OpeningKind::window, w.a_m, w.b_m, w.sill_m, w.height_m});
-    const double day = still.visits_share * scene_.floor.crowd.days;
-    for (std::size_t i = 0; i < r.obstacles.size(); ++i)
-      if (r.obstacles[i].from_day <= day && day <= r.obstacles[i].until_day)
-        in.obstacles.push_back(
-            {obstacle_of(r.obstacles[i].name), r.obstacles[i].outline_m, scene_.obstacle_height_m.at(i)});
-    for (const floor::Picture& p : r.pictures) in.pictures.push_back({p.at_m});
-    return in;
-  }
-
-  pov::StairSceneInput stairs(const scene::RoomStill& still, const std::vector<FloorField>& treads) const {
-    const floor::StairOptions& s = *scene_.floor.stairs;
-    pov::StairSceneInput in;
-    in.still = still.still;
-    in.treads = treads;
-    in.look.relief_scale = still.relief_scale;
-    in.look.material = material_of(scene_.floor.material);
-    in.going_m = s.going_m;
-    in.rise_m = s.rise_m;
-    in.width_m = s.width_m;
-    return in;
+  /// Tables of the first visits, for VTK and spreadsheets.
+  void write_shown_visits() {
+    const std::int64_t shown = scene_.output.shown_visits;
+    if (shown == 0) return;
+    clock_.start("write the first visits");
+    std::vector<floor::Footprint> prints;
+    const auto keep = [&](std::span<const floor::Footprint> p) { prints.insert(prints.end(), p.begin(), p.end()); };
+    if (needs_footprint_file(scene_)) {
+      FootprintReader reader(footprint_file());
+      const std::int64_t end = reader.visits().first + shown;
+      const floor::FootprintSource source = reader.source();
+      for (auto p = source(); !p.empty() && p.front().person < end; p = source()) keep(p);
+      std::erase_if(prints, [&](const floor::Footprint& f) { return f.person >= end; });
+    } else {
+      floor::walk(scene_.floor, {0, shown}, keep);
+    }
+    const vis::Compression compression =
+        scene_.output.compression == "zlib" ? vis::Compression::zlib : vis::Compression::lz4;
+    const PointTable table = footprint_table(prints);
+    vis::write_table_vtp(folder_.path() / "footprints.vtp", table, compression);
+    vis::write_table_csv(folder_.path() / "footprints.csv", table);
+    vis::write_table_vtp(folder_.path() / "walks.vtp", walk_table(prints), compression);
   }
 
   void tell(const floor::FloorReport& r) {
@@ -210,6 +196,9 @@ class FloorRun : public RunStages {
                                               {"stuck", r.walk.stuck},
                                               {"neighbour_difference_max", r.neighbour_difference_max}}
                                              .dump());
+    Json stages = Json::object();
+    for (const floor::FloorReport::Stage& s : r.stages) stages[s.name] = s.seconds;
+    record_.details.emplace_back("simulation_stages", stages.dump());
     for (const floor::Stuck& s : r.walk.stuck_first)
       console_.note(fmt::format("visit {} was stuck at ({:.2f}, {:.2f}) m on day {:.1f}", s.visit, s.at_m.x,
                                 s.at_m.y, s.day));
@@ -223,15 +212,39 @@ class FloorRun : public RunStages {
   std::map<long, std::vector<FloorField>> kept_;
 };
 
-}  // namespace
+/// What the command line says besides the scene.
+void apply(const RunRequest& request, scene::FloorScene& s) {
+  if (!s.walk.footprint_files.empty() && !s.walk.track_files.empty())
+    throw InvalidInput("--footprints: cannot be given together with walk.tracks of " + request.scene);
+  if (request.visits.empty()) return;
+  int from = 0, until = 0, used = 0;
+  if (std::sscanf(request.visits.c_str(), "%d:%d%n", &from, &until, &used) != 2 ||
+      std::size_t(used) != request.visits.size() || from < 0 || until <= from)
+    throw InvalidInput("--visits " + request.visits + ": must be FROM:UNTIL, two whole numbers, 0 <= FROM < UNTIL");
+  s.walk.stretch = {from, until};
+}
 
-void run_floor(const RunRequest& request, Console& console) {
-  scene::FloorScene scene = scene::load_floor_scene(request.scene, request.preview);
+void run_scene(const RunRequest& request, Console& console) {
+  std::vector<std::string> footprints;
+  for (const std::string& file : request.footprints)
+    footprints.push_back(fs::absolute(file).lexically_normal().string());
+  scene::FloorScene scene = scene::load_floor_scene(request.scene, request.preview, footprints);
+  apply(request, scene);
   load_masks(scene);
   const std::string name = scene.name, json = scene::resolved_json(scene);
   carry_out(request, "floor", name, json, console, [&](RunFolder& folder, RunRecord& record) {
     return std::make_unique<FloorRun>(std::move(scene), folder, record, console);
   });
+}
+
+}  // namespace
+
+void run_floor(const RunRequest& request, Console& console) {
+  try {
+    run_scene(request, console);
+  } catch (const InvalidInput& e) {
+    throw InvalidInput(scene::with_line(request.scene, e.what()));
+  }
 }
 
 }  // namespace witherfield::cli

@@ -8,6 +8,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/film.hpp"
 #include "sim/core/errors.hpp"
 
 namespace {
@@ -65,12 +66,14 @@ int main(int argc, char** argv) {
   app.fallthrough();
   cli::add_run_command(app, quiet);
   cli::add_render_command(app, quiet);
+  cli::add_film_command(app, quiet);
   cli::add_volume_command(app, quiet);
   cli::add_info_command(app, quiet);
   cli::add_check_command(app, quiet);
+  cli::add_edit_command(app, quiet);
   if (const std::string word = unknown_command(app, argc, argv); !word.empty())
     return fail(
-        "unknown command '" + word + "'; there are run, render, volume, info, check (witherfield --help)", 2);
+        "unknown command '" + word + "'; there are run, render, film, volume, info, check, edit (witherfield --help)", 2);
   try {
     app.parse(argc, argv);
     return 0;

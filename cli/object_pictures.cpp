@@ -44,7 +44,7 @@ pov::ObjectSceneInput scene_of(const ObjectStill& still, const std::vector<Surfa
     const pov::Bounds box = pov::bounds_of({&object, 1});
     widest = std::max(widest, box.high.x - box.low.x);
   }
-  pov::stand_in_row(input.objects, still.gap * widest);
+  pov::stand_in_row(input.objects, still.gap * widest, looks.common_ground);
   input.still.name = still.name;
   input.still.width_px = still.width_px;
   input.still.height_px = still.height_px;

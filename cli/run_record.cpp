@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli/commands.hpp"
+#include "cli/run_scene.hpp"
 #include "sim/core/errors.hpp"
 #include "sim/core/fields.hpp"
 
@@ -157,6 +158,15 @@ std::string run_json(const RunRecord& run) {
   j["files"] = Json::array();
   for (const auto& [path, bytes] : run.files) j["files"].push_back({{"path", path}, {"bytes", bytes}});
   return j.dump(2) + "\n";
+}
+
+std::string read_scene_json(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "run.json";
+  try {
+    return parse_file(file).at("scene").dump();
+  } catch (const nlohmann::json::exception& e) {
+    throw IoFailure("'" + file.string() + "' cannot be understood: " + e.what());
+  }
 }
 
 RunSummary read_run(const std::filesystem::path& folder) {

@@ -25,7 +25,7 @@ struct RemoveAtExit {
 };
 
 /// Media are smooth by themselves; thin blades need many samples; depth of field brings its own.
-std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
+std::vector<std::string> antialiasing(const SceneHead& head, Quality quality, bool even) {
   if (head.depth_of_field) return {"-A"};
   if (head.look == "texel") {
     if (quality == Quality::final || (quality == Quality::good && !head.field))
@@ -33,7 +33,7 @@ std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
     return {"-A"};
   }
   // Awns and margins are thinner than a pixel and all else is cheap: every pixel gets all its samples.
-  if (head.look == "object")
+  if (head.look == "object" || even)
     return {"+AM1", "+A0.0", quality == Quality::draft ? "+R2" : quality == Quality::good ? "+R3" : "+R5", "-J"};
   switch (quality) {
     case Quality::draft:
@@ -48,9 +48,7 @@ std::vector<std::string> antialiasing(const SceneHead& head, Quality quality) {
 
 }  // namespace
 
-RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png,
-                          const RenderOptions& options, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+Radiance render_radiance(const std::filesystem::path& scene, const RenderOptions& options, const Progress& progress) {
   const std::string text = read_file(scene);
   const SceneHead head = parse_head(text, scene.string());
   const int width = options.width_px > 0 ? options.width_px : head.width_px;
@@ -67,17 +65,25 @@ RenderResult render_scene(const std::filesystem::path& scene, const std::filesys
                                      "+H" + std::to_string(height),
                                      "Declare=QUALITY=" + std::to_string(int(options.quality))};
   if (options.threads > 0) arguments.push_back("+WT" + std::to_string(options.threads));
-  for (const std::string& a : antialiasing(head, options.quality)) arguments.push_back(a);
+  for (const std::string& a : antialiasing(head, options.quality, options.even_samples)) arguments.push_back(a);
   run_povray(folder, arguments, progress);
-  HdrImage image = decode_hdr(read_file(folder / raw), scene.stem().string() + ": what povray rendered");
-  const bool media = head.look == "texel";
-  if (media) mend_specks(image);
+  Radiance out{decode_hdr(read_file(folder / raw), scene.stem().string() + ": what povray rendered"), head.exposure,
+               head.look};
+  if (head.look == "texel") mend_specks(out.image);
+  return out;
+}
+
+RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png,
+                          const RenderOptions& options, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const Radiance picture = render_radiance(scene, options, progress);
   std::error_code error;
   if (png.has_parent_path()) std::filesystem::create_directories(png.parent_path(), error);
-  write_png(png, image.width, image.height, develop(image, head.exposure, media ? 0.8 : 0.0),
+  write_png(png, picture.image.width, picture.image.height,
+            develop(picture.image, picture.exposure, picture.look == "texel" ? 0.8 : 0.0),
             {{"Software", "witherfield"},
              {"Title", scene.stem().string()},
-             {"Comment", "rendered with POV-Ray; " + head.look + " look"}});
+             {"Comment", "rendered with POV-Ray; " + picture.look + " look"}});
   return {png, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 

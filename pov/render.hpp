@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "pov/hdr.hpp"
 #include "sim/core/progress.hpp"
 
 namespace witherfield::pov {
@@ -13,6 +14,9 @@ struct RenderOptions {
   int width_px = 0, height_px = 0;  ///< 0 = as the scene says
   Quality quality = Quality::good;
   int threads = 0;  ///< 0 = all
+  /// Every pixel gets all its samples, at the same places: pictures of a film must not differ by where the renderer
+  /// chose to look closer. Not for media and depth of field.
+  bool even_samples = false;
 };
 
 struct RenderResult {
@@ -25,5 +29,14 @@ struct RenderResult {
 /// picture cannot be written; nothing half-written stays.
 RenderResult render_scene(const std::filesystem::path& scene, const std::filesystem::path& png,
                           const RenderOptions& options, const Progress& progress = {});
+
+/// The same picture as scene radiance, before tone mapping, and the exposure that its scene asks for.
+struct Radiance {
+  HdrImage image;
+  double exposure = 1;
+  std::string look;
+};
+/// @throws IoFailure as above.
+Radiance render_radiance(const std::filesystem::path& scene, const RenderOptions& options, const Progress& progress = {});
 
 }  // namespace witherfield::pov

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/core/errors.hpp"
@@ -301,23 +302,68 @@ void Reader::finish() const {
       fmt::format("{}:{}: {}: unknown key; {}", file_, first->source().begin.line, full(name), hint));
 }
 
-toml::table parse(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoFailure(path + ": cannot open the scene file (does it exist, and may it be read?)");
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw IoFailure(path + ": cannot read the scene file");
+toml::table parse_text(const std::string& text, const std::string& path) {
   try {
-    return toml::parse(text.str(), path);
+    return toml::parse(text, path);
   } catch (const toml::parse_error& e) {
     throw InvalidInput(
         fmt::format("{}:{}: not valid TOML: {}", path, e.source().begin.line, e.description()));
   }
 }
 
+toml::table parse(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw IoFailure(path + ": cannot open the scene file (does it exist, and may it be read?)");
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw IoFailure(path + ": cannot read the scene file");
+  return parse_text(text.str(), path);
+}
+
+using Json = nlohmann::ordered_json;
+
+toml::table table_of(const Json& object);
+toml::array array_of(const Json& items);
+
+/// Calls take(value) with the TOML value of a JSON one.
+template <class Take>
+void take_value(const Json& json, const Take& take) {
+  if (json.is_object()) return take(table_of(json));
+  if (json.is_boolean()) return take(json.get<bool>());
+  if (json.is_number_integer()) return take(json.get<std::int64_t>());
+  if (json.is_number()) return take(json.get<double>());
+  if (json.is_string()) return take(json.get<std::string>());
+  take(array_of(json));
+}
+
+toml::array array_of(const Json& items) {
+  toml::array array;
+  for (const Json& item : items) take_value(item, [&](auto&& value) { array.push_back(std::move(value)); });
+  return array;
+}
+
+toml::table table_of(const Json& object) {
+  toml::table table;
+  for (const auto& [key, json] : object.items()) {
+    if (json.is_null() || (json.is_array() && json.empty())) continue;
+    take_value(json, [&, &name = key](auto&& value) { table.insert_or_assign(name, std::move(value)); });
+  }
+  return table;
+}
+
 }  // namespace
 
+TomlFile TomlFile::from_json(const std::string& text, const std::string& what) {
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) throw InvalidInput(what + ": not a resolved scene (no JSON object)");
+  return TomlFile(std::make_unique<const Impl>(Impl{what, table_of(json)}));
+}
+
+TomlFile::TomlFile(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+TomlFile::TomlFile(TomlFile&&) noexcept = default;
 TomlFile::TomlFile(const std::string& path) : impl_(new Impl{path, parse(path)}) {}
+TomlFile::TomlFile(const std::string& text, const std::string& source)
+    : impl_(new Impl{source, parse_text(text, source)}) {}
 TomlFile::~TomlFile() = default;
 
 void TomlFile::read(const KeyVisitor::Body& describe, const std::vector<std::string>& all_keys) const {
@@ -332,6 +378,20 @@ std::string TomlFile::top_text(const char* key) const {
   if (!node->is_string())
     throw InvalidInput(where(key) + " = " + text_of(*node) + ": must be a text in quotes");
   return node->as_string()->get();
+}
+
+int TomlFile::line_of(const std::string& key_path) const {
+  int line = 0;
+  for (std::string path = key_path; !path.empty();) {
+    if (const toml::node* node = impl_->root.at_path(path).node()) {
+      line = int(node->source().begin.line);
+      if (!node->is_array_of_tables()) return line;
+    }
+    if (line > 0) return line;
+    const std::size_t end = path.find_last_of(".[");
+    path.resize(end == std::string::npos ? 0 : end);
+  }
+  return line;
 }
 
 std::string TomlFile::where(const char* key) const {
