@@ -58,7 +58,7 @@ void describe_crowd(KeyVisitor& v, FloorOptions& o) {
   v.number({"clockwise_share", "Of the patrols"}, c.clockwise_share, {0, 1});
   v.number({"women_share", "Of the people"}, c.women_share, {0, 1});
   // The least of the four may be the standard deviation; the rest is checked by the simulator.
-  const Limits speed{0, 4, "m/s"}, mass{0, 400, "kg"}, foot{0, 0.5, "m"};
+  const Limits speed{0.1, 4, "m/s"}, mass{1, 400, "kg"}, foot{0.1, 0.5, "m"};
   spread(v, {"speed_men_m_s", "Free walking: mean, standard deviation, least, greatest"}, c.speed_men_m_s,
          speed);
   spread(v, {"speed_women_m_s", "The same of women"}, c.speed_women_m_s, speed);

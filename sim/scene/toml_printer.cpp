@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "sim/scene/key_writers.hpp"
 
 namespace witherfield::scene {
@@ -84,6 +86,9 @@ class Printer : public KeyVisitor {
       print_table(key, "[[", "]]", false, [&](KeyVisitor& v) { body(v, i); });
   }
   void check(std::string_view, bool, const std::function<std::string()>&) override {}
+  /// Tables come after all keys of the table they stand in, whatever the order of the visit: TOML takes a key for one
+  /// of the last table above it.
+  void finish() { out_ += std::exchange(tables_, {}); }
 
  private:
   void line(const Key& key, const std::string& range, const std::string& value, bool commented = false) {
@@ -93,13 +98,15 @@ class Printer : public KeyVisitor {
   void print_table(const Key& key, const char* open, const char* close, bool commented, const Body& body) {
     const bool quiet = plain_ || !(commented || !margin_.empty());
     const std::string margin = quiet ? "" : "# ", name = prefix_ + std::string(key.name);
-    if (!plain_) out_ += fmt::format("\n{}# {}.\n", margin, key.doc);
-    out_ += fmt::format("{}{}{}{}\n", margin, open, name, close);
-    Printer inner(out_, !quiet, plain_, name + ".");
+    if (!plain_) tables_ += fmt::format("\n{}# {}.\n", margin, key.doc);
+    tables_ += fmt::format("{}{}{}{}\n", margin, open, name, close);
+    Printer inner(tables_, !quiet, plain_, name + ".");
     body(inner);
+    inner.finish();
   }
 
   std::string& out_;
+  std::string tables_;
   std::string margin_;
   bool plain_;
   std::string prefix_;
@@ -111,6 +118,7 @@ std::string commented_toml(const KeyVisitor::Body& describe) {
   std::string out;
   Printer printer(out, false);
   describe(printer);
+  printer.finish();
   return out;
 }
 
@@ -118,6 +126,7 @@ std::string values_toml(const KeyVisitor::Body& describe) {
   std::string out;
   Printer printer(out, false, true);
   describe(printer);
+  printer.finish();
   return out;
 }
 
