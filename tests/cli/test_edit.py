@@ -147,6 +147,13 @@ class Window(ProgramTest):
     def pixels_changed(self, a, b):
         return int((np.abs(self.view(a) - self.view(b)).max(axis=2) > 24).sum())
 
+    def looks_like(self, picture, pixels):
+        """Soon, but for so many pixels."""
+        try:
+            self.wait_for(lambda: self.pixels_changed(self.screen.shot(), picture) < pixels, "a picture seen before")
+        except AssertionError as e:
+            raise AssertionError("%s; %d pixels differ" % (e, self.pixels_changed(self.screen.shot(), picture))) from e
+
     # ---- tests
 
     def test_a_drag_moves_the_leaf_and_undo_brings_it_back(self):
@@ -185,16 +192,16 @@ class Window(ProgramTest):
 
         self.screen.key("Control_L", "z")
         self.title_holds(r"strain 0\.0 %")
-        self.assertLess(self.pixels_changed(self.still(), placed), 30)
+        self.looks_like(placed, 30)
         self.screen.key("Control_L", "z")
         self.title_holds("^leaf - handles: 1")  # no star: as it was opened
         self.screen.key("Control_L", "y")
         self.screen.key("Control_L", "Shift_L", "z")
         self.title_holds("handles: 2")
-        self.assertLess(self.pixels_changed(self.still(), moved), 30)
+        self.looks_like(moved, 30)
         self.screen.key("r")
         self.title_holds("handles: 1,")
-        self.assertLess(self.pixels_changed(self.still(), first), 30)
+        self.looks_like(first, 30)
 
         self.screen.key("Control_L", "z")
         self.title_holds("handles: 2")
@@ -247,7 +254,7 @@ class Window(ProgramTest):
         self.assertTrue((self.folder / "leaf_edited_points.csv").exists())
         self.screen.key("Control_L", "z")
         self.title_holds(r"points: %.1f cm2" % area)
-        self.assertLess(self.pixels_changed(self.still(), flat), 60)
+        self.looks_like(flat, 60)
 
     def green(self, shot):
         r, g, b = (shot[:, :, k] for k in range(3))
