@@ -37,7 +37,8 @@ leaf::LeafInput read_input(const scene::LeafScene& s) {
     std::ostringstream text;
     text << in.rdbuf();
     if (!in) throw IoFailure("cannot read '" + s.leaf.points_file + "'");
-    input.points = leaf::parse_outline_csv(text.str(), s.leaf.points_file, s.points_unit);
+    const bool json = fs::path(s.leaf.points_file).extension() == ".json";
+    input.points = (json ? leaf::parse_outline_json : leaf::parse_outline_csv)(text.str(), s.leaf.points_file, s.points_unit);
   }
   if (s.leaf.source == leaf::LeafSource::mesh) {
     vis::MeshFile file = vis::read_mesh_file(s.leaf.mesh_file);
@@ -122,9 +123,11 @@ class LeafRun : public RunStages {
     const fs::path folder = folder_.path() / "leaf";
     for (std::size_t i = 0; i < model_.stages.size(); ++i) {
       const leaf::Stage& stage = model_.stages[i];
-      if (stage.surface.triangles.empty()) continue;
-      vis::write_surface_vtp(folder / fmt::format("stage_{}_{}.vtp", i + 1, stage.name), stage.surface,
-                             {0, 0}, "mm");
+      const fs::path file = folder / fmt::format("stage_{}_{}.vtp", i + 1, stage.name);
+      if (stage.surface.triangles.empty())
+        vis::write_curves_vtp(file, stage.surface.position_m, stage.lines, {0, 0});
+      else
+        vis::write_surface_vtp(file, stage.surface, {0, 0}, "mm");
     }
   }
 
@@ -144,13 +147,32 @@ class LeafRun : public RunStages {
   std::vector<glm::dvec3> edit() {
     clock_.start("edit");
     std::vector<glm::dvec3> pose;
+    Json reports = Json::array();
     const double keys = double(scene_.leaf.edit.keys.size());
     leaf::run_edit(model_, scene_.leaf.edit, [&](const leaf::EditFrame& f) {
       pose = *f.position_m;
+      Surface blade = model_.natural;
+      blade.position_m = pose;
+      const auto crossing = check::check_mesh(to_tri_mesh(blade, true)).self_intersections;
+      const leaf::EditReport& r = f.report;
+      reports.push_back({{"key", f.key->name},
+                         {"area_drift", r.area_drift},
+                         {"largest_strain", r.largest_strain},
+                         {"rms_strain", r.rms_strain},
+                         {"flipped_faces", r.flipped_faces},
+                         {"intersecting_pairs", crossing},
+                         {"iterations", f.iterations}});
+      console_.note(fmt::format("edit '{}': area {:+.2f} %, largest strain {:.1f} %, {} faces flipped, {} pairs crossing",
+                                f.key->name, 100 * r.area_drift, 100 * r.largest_strain, r.flipped_faces, crossing));
       if (scene_.leaf.wilts) return;
       take({(f.index + 1) / keys, double(f.index + 1), whole_leaf(model_, pose)},
-           {{"iterations", double(f.iterations)}});
+           {{"iterations", double(f.iterations)},
+            {"area_drift", r.area_drift},
+            {"largest_strain", r.largest_strain},
+            {"flipped_faces", double(r.flipped_faces)},
+            {"intersecting_pairs", double(crossing)}});
     });
+    record_.details.emplace_back("edit", reports.dump());
     clock_.start("");
     return pose;
   }

@@ -57,6 +57,12 @@ void write_terrain_vtp(const std::filesystem::path& file, const TriMesh& mesh,
 ValueRanges write_floor_vti(const std::filesystem::path& file, const FloorField& floor, const Stamp& stamp,
                             Compression compression = Compression::lz4);
 
+/// Points as vertices and curves (chains of point numbers) as polylines, millimetres.
+/// @throws InvalidInput when a chain names a point that is not there; IoFailure.
+void write_curves_vtp(const std::filesystem::path& file, const std::vector<glm::dvec3>& points_m,
+                      const std::vector<std::vector<int>>& curves, const Stamp& stamp,
+                      Compression compression = Compression::lz4);
+
 /// .pvd time series. Entries are (days, path relative to the .pvd).
 void write_pvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& entries);
 

@@ -126,10 +126,19 @@ class Builder {
   LeafOptions o_;
 };
 
+/// To the nearest multiple of a nanometre or so. The same leaf measured elsewhere differs in its last bits only, and the refinement of a
+/// symmetric leaf has many ties that those bits would decide: without them it gets the same triangles wherever it stands.
+void snap(std::vector<dvec3>& line) {
+  constexpr double kPerMetre = double(1 << 30);
+  for (dvec3& p : line) p = glm::round(p * kPerMetre) / kPerMetre;
+}
+
 Curves Builder::splines(const OutlinePoints& p, bool measured) {
   const CubicSpline left(p.left_m), right(p.right_m), midrib(p.midrib_m);
   const double spacing = o_.mesh.outline_spacing_m;
   Curves c{left.sample(spacing, 8, kMaxTurn), right.sample(spacing, 8, kMaxTurn), midrib.sample(o_.mesh.vein_edge_m, 4)};
+  if (measured)
+    for (std::vector<dvec3>* line : {&c.left, &c.right, &c.midrib}) snap(*line);
   if (measured || o_.margin.tooth_depth_m <= 0) return c;
   for (const bool is_left : {true, false}) {
     Random random(o_.seed, Stream::outline, is_left ? kTeethLeft : kTeethRight);
@@ -232,8 +241,12 @@ void Builder::finish(LeafModel& m) const {
   // Held by the petiole: what lies within its end.
   const double radius = std::max(1.2 * o_.petiole_radius_m, 0.012 * o_.main_vein_m);
   const dvec3 foot = m.midrib.empty() ? m.flat.position_m[std::size_t(m.border.front())] : m.flat.position_m[std::size_t(m.midrib.front())];
-  for (std::size_t i = 0; i < n; ++i)
-    if (glm::distance(m.flat.position_m[i], foot) <= radius) m.base.push_back(int(i));
+  std::vector<std::pair<double, int>> near;
+  for (std::size_t i = 0; i < n; ++i) near.emplace_back(glm::distance(m.flat.position_m[i], foot), int(i));
+  constexpr std::size_t kLeast = 5;  // on coarse meshes the nearest ones, or the blade could turn about what holds it
+  std::sort(near.begin(), near.end());
+  for (std::size_t i = 0; i < n && (near[i].first <= radius || i < kLeast); ++i) m.base.push_back(near[i].second);
+  std::sort(m.base.begin(), m.base.end());
   const dvec3 at = m.natural.position_m[std::size_t(m.midrib.empty() ? m.border.front() : m.midrib.front())];
   if (o_.petiole_m > 0) {
     // From the stem upwards and forwards, in a shallow bow, to the blade's base.

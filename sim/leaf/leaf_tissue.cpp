@@ -52,11 +52,14 @@ double shrink_curvature_1_m(const WiltTissueOptions& t, double water, double vei
   return t.curl_1_m * (1 - vein) * std::clamp(1 - water, 0.0, 1.0);
 }
 
-double transpiration_share(const WiltTissueOptions& t, double cuticular_share, double water) {
+double turgor_share(const WiltTissueOptions& t, double water) {
   const double p = std::clamp(turgor_MPa(t, water) / (-0.5 * t.osmotic_potential_MPa), 0.0, 1.0);
-  const double stomata = p * p * (3 - 2 * p);
+  return p * p * (3 - 2 * p);
+}
+
+double transpiration_share(const WiltTissueOptions& t, double cuticular_share, double water) {
   const double w = std::max(water, 0.0);
-  return between(cuticular_share, 1.0, stomata) * 1.05 * w / (w + 0.05);
+  return between(cuticular_share, 1.0, turgor_share(t, water)) * 1.05 * w / (w + 0.05);
 }
 
 }  // namespace witherfield::leaf

@@ -26,8 +26,11 @@ double shrink_strain(const WiltTissueOptions& t, double water, double vein);
 /// Curvature that it would take on by itself, 1/m.
 double shrink_curvature_1_m(const WiltTissueOptions& t, double water, double vein);
 
+/// Rises smoothly from 0 to 1 over the lower half of the turgor: what stomata and the conductance of the tissue follow.
+double turgor_share(const WiltTissueOptions& t, double water);
+
 /// Transpiration per area over that with open stomata: stomata close with turgor, the cuticle goes on (and less from drier
-/// tissue): [c + (1 - c) s(P / P_0)] w / (w + 0.05) 1.05, s rises smoothly from 0 to 1 over the lower half of the turgor.
+/// tissue): [c + (1 - c) turgor_share] w / (w + 0.05) 1.05.
 double transpiration_share(const WiltTissueOptions& t, double cuticular_share, double water);
 
 }  // namespace witherfield::leaf

@@ -11,6 +11,7 @@
 #include "sim/core/errors.hpp"
 #include "sim/leaf/cotangent.hpp"
 #include "sim/leaf/leaf_tissue.hpp"
+#include "sim/leaf/vein_ribs.hpp"
 
 namespace witherfield::leaf {
 namespace {
@@ -51,20 +52,28 @@ std::vector<double> margin_distance_m(const Surface& s) {
   return distance;
 }
 
-/// Conductances between vertices, kg/s: W0 D w_ij / 2 with the cotangent weights. Negative ones (opposite obtuse angles) are set
-/// to 0: water must not flow from dry to wet.
-std::vector<Entry> blade_conductances(const WiltBody& body, const std::vector<float>& vein, const WiltWaterOptions& o) {
-  std::vector<double> scale;
-  for (const auto& t : body.rest.triangles) {
-    const double v = (double(vein[std::size_t(t[0])]) + vein[std::size_t(t[1])] + vein[std::size_t(t[2])]) / 3;
-    scale.push_back(o.diffusivity_blade_m2_s + (o.diffusivity_vein_m2_s - o.diffusivity_blade_m2_s) * v);
-  }
-  const SparseMatrix l = cotangent_laplacian(body.rest.position_m, body.rest.triangles, scale);
+/// Conductances between vertices, kg/s. The blade: W0 D w_ij / 2 with the cotangent weights. Veins: a piece of length l and section s
+/// along d in a triangle with shape gradients g conducts -k s l (g_i . d) (g_j . d) between two corners (all of k s / |ij| when it runs
+/// along an edge, as main and side veins do). Negative ones are set to 0: water must not flow from dry to wet.
+std::vector<Entry> conductances(const WiltBody& body, const WiltWaterOptions& o) {
+  const SparseMatrix l = cotangent_laplacian(body.rest.position_m, body.rest.triangles);
   std::vector<Entry> g;
+  const auto add = [&](int i, int j, double value) {
+    if (value > 0) g.push_back({std::min(i, j), std::max(i, j), value});
+  };
   for (int i = 0; i < l.rows(); ++i)
     for (int k = l.row_start[std::size_t(i)]; k < l.row_start[std::size_t(i) + 1]; ++k)
       if (const int j = l.column[std::size_t(k)]; j > i)
-        g.push_back({i, j, std::max(0.0, -l.value[std::size_t(k)]) * o.blade_water_kg_m2 / 2});
+        add(i, j, -l.value[std::size_t(k)] * o.diffusivity_blade_m2_s * o.blade_water_kg_m2 / 2);
+  const std::vector<ShellPatch> patches = make_patches(body.rest.position_m, body.rest.triangles);
+  for (const RibPiece& r : lay_ribs(body, patches).pieces) {
+    const ShellPatch& p = patches[std::size_t(r.triangle)];
+    const double flow = o.vein_conductivity_kg_m_s * std::numbers::pi * r.radius_m * r.radius_m * r.length_m;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      add(p.corner[i], p.corner[j], -flow * glm::dot(p.gradient[i], r.direction) * glm::dot(p.gradient[j], r.direction));
+    }
+  }
   return g;
 }
 
@@ -79,15 +88,19 @@ struct LeafWater::Impl {
   Curve supply;
   std::size_t vertices = 0;
   std::vector<double> water, capacity_kg, transpiring_kg_s, entry_kg_s;
-  SparseMatrix exchange;                 ///< sum_j G_ij on the diagonal, -G_ij beside it
+  struct Link {
+    int a, b;
+    double kg_s;                         ///< with turgor
+    int slot_ab, slot_ba;                ///< in `system`
+  };
+  std::vector<Link> links;
   SparseMatrix system;
   std::vector<int> diagonal;
   std::optional<SparseCholesky> factor;
   WaterBalance balance;
   double start_kg = 0, now_s = 0;
 
-  Impl(const WiltBody& body, const std::vector<float>& vein, const std::vector<glm::dvec3>& rod,
-       const std::vector<double>& radius, const WiltOptions& o)
+  Impl(const WiltBody& body, const std::vector<glm::dvec3>& rod, const std::vector<double>& radius, const WiltOptions& o)
       : options(o), vertices(body.rest.position_m.size()) {
     const WiltWaterOptions& w = o.water;
     supply = w.supply_curve.empty() ? Curve({{0.0, 1.0}, {0.5, 0.0}}, "wilt.supply_curve")
@@ -99,7 +112,7 @@ struct LeafWater::Impl {
       transpiring_kg_s.push_back(area[i] * w.transpiration_kg_m2_s *
                                  (1 + w.margin_gain * std::exp(-margin[i] / w.margin_width_m)));
     }
-    std::vector<Entry> g = blade_conductances(body, vein, w);
+    std::vector<Entry> g = conductances(body, w);
     entry_kg_s.assign(vertices + rod.size(), 0.0);
     if (rod.empty()) {
       for (const int v : body.clamp) entry_kg_s[std::size_t(v)] = w.petiole_conductance_kg_s / double(body.clamp.size());
@@ -129,12 +142,12 @@ struct LeafWater::Impl {
   void finish(const std::vector<Entry>& g) {
     std::vector<Entry> entries;
     for (const Entry& e : g)
-      entries.insert(entries.end(), {{e.row, e.column, -e.value}, {e.column, e.row, -e.value},
-                                     {e.row, e.row, e.value}, {e.column, e.column, e.value}});
+      entries.insert(entries.end(), {{e.row, e.column, 0.0}, {e.column, e.row, 0.0}});
     for (int i = 0; i < int(capacity_kg.size()); ++i) entries.push_back({i, i, 0.0});
-    exchange = assemble(int(capacity_kg.size()), std::move(entries));
-    system = exchange;
-    for (int i = 0; i < exchange.rows(); ++i) diagonal.push_back(exchange.find(i, i));
+    system = assemble(int(capacity_kg.size()), std::move(entries));
+    for (const Entry& e : g)
+      links.push_back({e.row, e.column, e.value, system.find(e.row, e.column), system.find(e.column, e.row)});
+    for (int i = 0; i < system.rows(); ++i) diagonal.push_back(system.find(i, i));
     water.assign(capacity_kg.size(), 1.0);
     for (const double c : capacity_kg) start_kg += c;
   }
@@ -148,7 +161,15 @@ struct LeafWater::Impl {
   void step(double dt) {
     const double open = supply((now_s + dt) / 3600);
     std::vector<double> rhs(water.size()), loss(water.size());
-    for (std::size_t k = 0; k < system.value.size(); ++k) system.value[k] = dt * exchange.value[k];
+    std::fill(system.value.begin(), system.value.end(), 0.0);
+    for (const Link& l : links) {
+      const bool in_blade = std::size_t(l.a) < vertices && std::size_t(l.b) < vertices;
+      const double flow = dt * l.kg_s * (in_blade ? conductance((water[std::size_t(l.a)] + water[std::size_t(l.b)]) / 2) : 1.0);
+      system.value[std::size_t(l.slot_ab)] -= flow;
+      system.value[std::size_t(l.slot_ba)] -= flow;
+      system.value[std::size_t(diagonal[std::size_t(l.a)])] += flow;
+      system.value[std::size_t(diagonal[std::size_t(l.b)])] += flow;
+    }
     for (std::size_t i = 0; i < water.size(); ++i) {
       const double w = std::max(water[i], 1e-12);
       loss[i] = transpiring_kg_s[i] * transpiration_share(options.tissue, options.water.cuticular_share, w) / w;
@@ -168,6 +189,10 @@ struct LeafWater::Impl {
     balance.stored_kg = stored();
   }
 
+  double conductance(double w) const {
+    return 1 - options.water.conductance_loss * (1 - turgor_share(options.tissue, w));
+  }
+
   /// One step of iterative refinement: veins conduct a thousand times better than the blade, the balance is to hold anyway.
   void refine(const std::vector<double>& rhs) {
     std::vector<double> residual(water.size());
@@ -178,13 +203,13 @@ struct LeafWater::Impl {
   }
 };
 
-LeafWater::LeafWater(const WiltBody& body, const std::vector<float>& vein, const std::vector<glm::dvec3>& rod,
-                     const std::vector<double>& radius, const WiltOptions& options) {
+LeafWater::LeafWater(const WiltBody& body, const std::vector<glm::dvec3>& rod, const std::vector<double>& radius,
+                     const WiltOptions& options) {
   validate(body);
   validate(options);
-  if (vein.size() != body.rest.position_m.size() || rod.size() != radius.size() || rod.size() == 1)
-    throw InvalidInput("LeafWater: one vein value per vertex and one radius per node of the petiole are needed");
-  impl_ = std::make_unique<Impl>(body, vein, rod, radius, options);
+  if (rod.size() != radius.size() || rod.size() == 1)
+    throw InvalidInput("LeafWater: two nodes of the petiole or more, and one radius per node, are needed");
+  impl_ = std::make_unique<Impl>(body, rod, radius, options);
 }
 LeafWater::~LeafWater() = default;
 LeafWater::LeafWater(LeafWater&&) noexcept = default;

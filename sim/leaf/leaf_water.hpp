@@ -1,8 +1,9 @@
 // Water in a leaf: from the stem through the petiole and the veins into the blade, and out of it as vapour.
 //
 //   c_i dw_i/dt = sum_j G_ij (w_j - w_i) + supply_i - a_i e(w_i)      w = relative water content, c_i = water at full turgor, kg
-// On the blade G is the cotangent operator with the vein field's diffusivity, on the petiole a chain. Backward Euler, one linear
-// solve a step: the transpiration is written as g(w_old) w_new, which keeps w within 0..1 for any step.
+// On the blade G is the cotangent operator, with more along the veins; on the petiole a chain. Backward Euler, one linear
+// solve a step: the transpiration is written as g(w_old) w_new, which keeps w within 0..1 for any step. Conductances of blade and
+// veins fall with turgor (those of the last step count): leaves that dry lose most of them (Scoffoni et al. 2012).
 #pragma once
 #include <memory>
 #include <span>
@@ -25,10 +26,10 @@ struct WaterBalance {
 
 class LeafWater {
  public:
-  /// @param vein per vertex, 0..1. @param rod_m, rod_radius_m nodes of the petiole, stem first (empty = none).
+  /// @param rod_m, rod_radius_m nodes of the petiole, stem first (empty = none).
   /// Starts with w = 1 everywhere. @throws InvalidInput.
-  LeafWater(const WiltBody& body, const std::vector<float>& vein, const std::vector<glm::dvec3>& rod_m,
-            const std::vector<double>& rod_radius_m, const WiltOptions& options);
+  LeafWater(const WiltBody& body, const std::vector<glm::dvec3>& rod_m, const std::vector<double>& rod_radius_m,
+            const WiltOptions& options);
   ~LeafWater();
   LeafWater(LeafWater&&) noexcept;
   LeafWater& operator=(LeafWater&&) noexcept;

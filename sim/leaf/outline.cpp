@@ -29,13 +29,6 @@ std::vector<std::string_view> cells(std::string_view line) {
   }
 }
 
-double unit_metres(const std::string& unit) {
-  if (unit == "m") return 1;
-  if (unit == "cm") return 0.01;
-  if (unit == "mm") return 0.001;
-  throw InvalidInput("outline points: unit '" + unit + "' is unknown; known: m, cm, mm");
-}
-
 void check_group(const std::vector<glm::dvec3>& points, const char* group) {
   const std::string at = std::string("outline points: ") + group;
   if (points.size() < 2)
@@ -50,8 +43,15 @@ void check_group(const std::vector<glm::dvec3>& points, const char* group) {
 
 }  // namespace
 
+double metres_per_unit(const std::string& unit) {
+  if (unit == "m") return 1;
+  if (unit == "cm") return 0.01;
+  if (unit == "mm") return 0.001;
+  throw InvalidInput("outline points: unit '" + unit + "' is unknown; known: m, cm, mm");
+}
+
 OutlinePoints parse_outline_csv(std::string_view text, const std::string& name, const std::string& unit) {
-  const double scale = unit_metres(unit);
+  const double scale = metres_per_unit(unit);
   OutlinePoints out;
   int number = 0;
   bool seen = false;

@@ -19,7 +19,13 @@ struct OutlinePoints {
 /// with names, empty lines and lines that begin with # are passed over. `unit` of the numbers: m, cm or mm.
 /// @throws InvalidInput with `name` and the line number.
 OutlinePoints parse_outline_csv(std::string_view text, const std::string& name, const std::string& unit = "m");
+/// An object {"left": [[x, y], [x, y, z], ...], "right": [...], "midrib": [...]}; its "unit", when stated, goes before `unit`.
+/// @throws InvalidInput with `name`, the line of a mistake in the notation, the group and number of a wrong point.
+OutlinePoints parse_outline_json(std::string_view text, const std::string& name, const std::string& unit = "m");
 std::string outline_csv(const OutlinePoints& points);
+
+/// @throws InvalidInput for another unit than m, cm, mm.
+double metres_per_unit(const std::string& unit);
 
 /// @throws InvalidInput: fewer than 2 points on an outline or on the midrib, not finite, points that coincide, all on
 /// one line, left and right swapped.

@@ -78,6 +78,7 @@ Shell::Stiffness Shell::stiffness(std::size_t t, const ShellMaterial& m) const {
   const double nu = m.poisson, h = m.thickness_m;
   Stiffness s;
   s.scale = 1 / ((1 + m.shrink_strain) * (1 + m.shrink_strain));
+  s.rib_scale = 1 / ((1 + m.rib_shrink_strain) * (1 + m.rib_shrink_strain));
   s.sheet = m.membrane_Pa * h / (1 - nu * nu) * p.area_m2;
   s.poisson = nu;
   s.compression = m.compression;
@@ -95,7 +96,7 @@ Shell::Stiffness Shell::stiffness(std::size_t t, const ShellMaterial& m) const {
     const glm::dvec2 d = rib.direction, across(-d.y, d.x);
     const double r2 = rib.radius_m * rib.radius_m, area = std::numbers::pi * r2, inertia = area * r2 / 4;
     const glm::dvec3 along(d.x * d.x, d.y * d.y, d.x * d.y);
-    s.ribs += glm::outerProduct(along, along) * (m.rib_Pa * area * rib.length_m);
+    s.ribs += glm::outerProduct(along, along) * (m.rib_axial_Pa * area * rib.length_m);
     glm::dvec3 bend, twist;
     for (int i = 0; i < 3; ++i) {
       const glm::dvec2 g = p.gradient[std::size_t(i)];
@@ -152,8 +153,10 @@ Shell::Strain Shell::measure(std::size_t t, std::span<const glm::dvec3> x) const
     m.f1 += q[i] * p.gradient[i].x;
     m.f2 += q[i] * p.gradient[i].y;
   }
-  m.strain = glm::dvec3((s.scale * glm::dot(m.f1, m.f1) - 1) / 2, (s.scale * glm::dot(m.f2, m.f2) - 1) / 2,
-                        s.scale * glm::dot(m.f1, m.f2)) - preload_strain_[t];
+  const glm::dvec3 half_square(glm::dot(m.f1, m.f1) / 2, glm::dot(m.f2, m.f2) / 2, glm::dot(m.f1, m.f2));
+  const glm::dvec3 at_rest = glm::dvec3(0.5, 0.5, 0) + preload_strain_[t];
+  m.strain = s.scale * half_square - at_rest;
+  m.rib_strain = s.rib_scale * half_square - at_rest;
   m.angle = glm::dvec3(0.0);
   for (std::size_t i = 0; i < 3; ++i)
     if (p.across[i] >= 0)
@@ -162,13 +165,13 @@ Shell::Strain Shell::measure(std::size_t t, std::span<const glm::dvec3> x) const
   return m;
 }
 
-SheetResponse Shell::membrane(std::size_t t, const glm::dvec3& strain) const {
+SheetResponse Shell::membrane(std::size_t t, const Strain& m) const {
   const Stiffness& s = stiffness_[t];
-  SheetResponse r = sheet_response(strain, s.sheet, s.poisson, s.compression);
-  const glm::dvec3 ribs = s.ribs * strain;
-  r.energy += 0.5 * glm::dot(strain, ribs);
-  r.force += ribs;
-  r.tangent += s.ribs;
+  SheetResponse r = sheet_response(m.strain, s.sheet, s.poisson, s.compression);
+  const glm::dvec3 ribs = s.ribs * m.rib_strain;
+  r.energy += 0.5 * glm::dot(m.rib_strain, ribs);
+  r.force = s.scale * r.force + s.rib_scale * ribs;
+  r.tangent = s.scale * s.scale * r.tangent + s.rib_scale * s.rib_scale * s.ribs;
   return r;
 }
 
@@ -177,7 +180,7 @@ double Shell::energy(std::span<const glm::dvec3> x) const {
   parallel_for(patches_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Strain m = measure(t, x);
-      part[t] = membrane(t, m.strain).energy + 0.5 * glm::dot(m.angle, stiffness_[t].bending * m.angle);
+      part[t] = membrane(t, m).energy + 0.5 * glm::dot(m.angle, stiffness_[t].bending * m.angle);
     }
   });
   double sum = 0;  // in the order of the triangles: the same bits for any thread count
@@ -189,15 +192,15 @@ void Shell::element(std::size_t t, std::span<const glm::dvec3> x, double exactne
   const ShellPatch& p = patches_[t];
   const Stiffness& s = stiffness_[t];
   const Strain m = measure(t, x);
-  const SheetResponse sheet = membrane(t, m.strain);
+  const SheetResponse sheet = membrane(t, m);
   const glm::dvec3 force = sheet.force, moment = s.bending * m.angle;
   out.energy = sheet.energy + 0.5 * glm::dot(m.angle, moment);
   out.gradient.fill(glm::dvec3(0.0));
   out.hessian.fill(glm::dmat3(0.0));
 
-  std::array<glm::dmat3, 3> b;  // column k of b[a]: d strain_k / d x_a
+  std::array<glm::dmat3, 3> b;  // column k of b[a]: d (F^T F / 2)_k / d x_a
   for (std::size_t a = 0; a < 3; ++a) {
-    const glm::dvec2 g = p.gradient[a] * s.scale;
+    const glm::dvec2 g = p.gradient[a];
     b[a] = glm::dmat3(g.x * m.f1, g.y * m.f2, g.x * m.f2 + g.y * m.f1);
     out.gradient[a] = b[a] * force;
   }
@@ -205,7 +208,7 @@ void Shell::element(std::size_t t, std::span<const glm::dvec3> x, double exactne
   for (std::size_t a = 0, k = 0; a < 3; ++a)
     for (std::size_t c = 0; c <= a; ++c, ++k) {
       const glm::dvec2 g = p.gradient[a], q = p.gradient[c];
-      const double geometric = s.scale * (g.x * (pull.x * q.x + pull.z * q.y) + g.y * (pull.z * q.x + pull.y * q.y));
+      const double geometric = g.x * (pull.x * q.x + pull.z * q.y) + g.y * (pull.z * q.x + pull.y * q.y);
       out.hessian[k] = b[a] * sheet.tangent * glm::transpose(b[c]) + glm::dmat3(geometric);
     }
 

@@ -28,8 +28,10 @@ struct ShellMaterial {
   double poisson = 0;
   double shrink_strain = 0;    ///< linear eigenstrain
   double curvature_1_m = 0;    ///< eigencurvature, > 0 towards the upper side
-  double rib_Pa = 0;           ///< modulus of the ribs in it
+  double rib_Pa = 0;           ///< modulus of the ribs in it, in bending and torsion
   double compression = 1;      ///< share of the stiffness in the plane against compression (sheet_law.hpp)
+  double rib_axial_Pa = 0;     ///< modulus of the ribs along themselves
+  double rib_shrink_strain = 0;  ///< their own linear eigenstrain
 };
 
 class Shell {
@@ -64,16 +66,17 @@ class Shell {
     double poisson, compression;
     glm::dmat3 ribs;      ///< N m per strain^2, (11, 22, 2x12)
     glm::dmat3 bending;   ///< N m per angle^2 over the three hinges, ribs included
-    double scale;         ///< 1 / (1 + shrink)^2
+    double scale, rib_scale;  ///< 1 / (1 + shrink)^2 of the sheet, of its ribs
     std::array<double, 3> angle;  ///< that the eigencurvature would make
   };
   struct Strain {
     glm::dvec3 f1, f2;    ///< columns of the deformation gradient
-    glm::dvec3 strain;    ///< (11, 22, 2x12)
+    glm::dvec3 strain, rib_strain;  ///< (11, 22, 2x12)
     glm::dvec3 angle;     ///< of the hinges, less those at rest
   };
-  SheetResponse membrane(std::size_t t, const glm::dvec3& strain) const;  ///< of the sheet and its ribs
   Strain measure(std::size_t t, std::span<const glm::dvec3> x) const;
+  /// Of the sheet and its ribs; derivatives after F^T F / 2.
+  SheetResponse membrane(std::size_t t, const Strain& strain) const;
   Stiffness stiffness(std::size_t t, const ShellMaterial& m) const;
   struct Local {  ///< contribution of one triangle over its six nodes; second derivatives: lower triangle by rows
     double energy;

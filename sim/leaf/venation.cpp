@@ -2,6 +2,7 @@
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,29 @@ SegmentGrid grid_of_outline(const std::vector<dvec2>& outline, double cell) {
   for (std::size_t i = 0; i < outline.size(); ++i) grid.add(outline[i], outline[(i + 1) % outline.size()], 0);
   grid.build();
   return grid;
+}
+
+/// Ends of the edges between bounded cells. CGAL's edge iterator takes the one of an edge's two faces that has the lower address, so
+/// that order and direction would change from run to run: faces are numbered instead.
+std::vector<std::pair<dvec2, dvec2>> voronoi_edges(const std::vector<dvec2>& seeds) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+  using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>, FaceBase>;
+  CGAL::Delaunay_triangulation_2<Kernel, Tds> dt;
+  for (const dvec2& p : seeds) dt.insert(Kernel::Point_2(p.x, p.y));
+  std::vector<dvec2> centre;
+  for (auto f = dt.finite_faces_begin(); f != dt.finite_faces_end(); ++f) {
+    f->info() = int(centre.size());
+    const auto c = dt.circumcenter(f);
+    centre.emplace_back(c.x(), c.y());
+  }
+  std::vector<std::pair<dvec2, dvec2>> edges;
+  for (auto f = dt.finite_faces_begin(); f != dt.finite_faces_end(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto g = f->neighbor(k);
+      if (!dt.is_infinite(g) && f->info() < g->info()) edges.emplace_back(centre[std::size_t(f->info())], centre[std::size_t(g->info())]);
+    }
+  return edges;
 }
 
 }  // namespace
@@ -163,15 +187,7 @@ void grow_net(std::vector<Vein>& veins, const std::vector<dvec2>& outline, const
     add(p);
   }
 
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Delaunay = CGAL::Delaunay_triangulation_2<Kernel>;
-  Delaunay dt;
-  for (const dvec2& p : seeds) dt.insert(Kernel::Point_2(p.x, p.y));
-  for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e) {
-    const auto f = e->first, g = f->neighbor(e->second);
-    if (dt.is_infinite(f) || dt.is_infinite(g)) continue;
-    const auto c0 = dt.circumcenter(f), c1 = dt.circumcenter(g);
-    dvec2 a(c0.x(), c0.y()), b(c1.x(), c1.y());
+  for (auto [a, b] : voronoi_edges(seeds)) {
     if (glm::distance(a, b) < 0.02 * spacing || glm::distance(a, b) > 3 * spacing) continue;
     if (large.nearest(0.5 * (a + b)).distance_m < 0.12 * spacing) continue;  // the vein itself
     const bool in_a = inside_polygon(outline, a), in_b = inside_polygon(outline, b);

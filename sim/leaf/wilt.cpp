@@ -27,7 +27,7 @@ LeafWater make_water(const WiltBody& body, const WiltOptions& options, const Wil
   std::vector<double> radius;
   for (int k = 0; k < mechanics.rod_nodes(); ++k) radius.push_back(mechanics.rod_radius_m(k));
   const auto& x = mechanics.shape().x;
-  return {body, mechanics.vein(), {x.end() - mechanics.rod_nodes(), x.end()}, radius, options};
+  return {body, {x.end() - mechanics.rod_nodes(), x.end()}, radius, options};
 }
 
 void note(const RelaxReport& r, WiltReport& report) {

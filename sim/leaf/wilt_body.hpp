@@ -7,7 +7,7 @@
 
 namespace witherfield::leaf {
 
-/// A rib: a round rod that lies in the blade and bends with it.
+/// A rib: a round rod that lies in the blade, bends with it and conducts water.
 struct VeinCurve {
   std::vector<glm::dvec3> points_m;  ///< from its origin outwards, on (or near) the blade in the frame of `vein_frame_m`
   double radius_base_m = 0, radius_tip_m = 0;
@@ -15,7 +15,7 @@ struct VeinCurve {
 
 struct WiltBody {
   Surface rest;                     ///< natural pose at full turgor (upper side = counter-clockwise)
-  std::vector<float> vein;          ///< per vertex, 0 blade .. 1 vein: conducts water, shrinks less; empty = from the curves
+  std::vector<float> vein;          ///< per vertex, 0 blade .. 1 vein: shrinks less; empty = from the curves
   std::vector<VeinCurve> veins;     ///< ribs; number 0 is the main vein, whose length is reported; may be empty
   std::vector<glm::dvec3> vein_frame_m;  ///< other positions of the same vertices in which the curves are given (the flat blade); empty = rest
   std::vector<int> clamp;           ///< vertices of the blade that are held: by the petiole's end, or in space when there is none

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <cstdio> // DBG
-#include <cstdlib> // DBG
 
 #include "sim/core/errors.hpp"
 #include "sim/leaf/contact.hpp"
@@ -53,7 +51,6 @@ struct WiltMechanics::Impl {
   std::vector<double> mass_kg;    ///< per node
   std::vector<glm::dvec3> gradient, step;
   std::vector<double> rows;
-  int nconvex = 0; // DBG
   double convexity = 0;  ///< 0: exact second derivatives .. 1: convex ones
   int successes = 0;     ///< factorisations since it was changed
   double size_m = 0, max_move_m = 0;
@@ -117,7 +114,8 @@ struct WiltMechanics::Impl {
             patches[k].area_m2 / 3 * (t.dry_mass_kg_m2 + options.water.blade_water_kg_m2 * blade[std::size_t(i)]);
       }
       material[k] = {blade_membrane_MPa(t, w) * 1e6, blade_bending_MPa(t, w) * 1e6, thickness_m(t, w), t.poisson,
-                     shrink_strain(t, w, v), shrink_curvature_1_m(t, w, v), vein_modulus_MPa(t, w) * 1e6, t.compression_share};
+                     shrink_strain(t, w, v), shrink_curvature_1_m(t, w, v), vein_modulus_MPa(t, w) * 1e6, t.compression_share,
+                     t.vein_turgid_MPa * 1e6, shrink_strain(t, w, 1)};  // fibres carry the length of a vein, turgid or not (Vincent 1982)
     }
     for (const RibPiece& r : ribs.pieces) {
       const auto& c = patches[std::size_t(r.triangle)].corner;
@@ -200,7 +198,6 @@ struct WiltMechanics::Impl {
         ++successes;
         return e;
       }
-      ++nconvex; // DBG
       successes = 0;
       if (convexity >= 1) break;
       convexity = convexity == 0 ? kLeast : std::min(1.0, 3 * convexity);
@@ -252,7 +249,6 @@ struct WiltMechanics::Impl {
       if (report.converged || report.iterations >= options.solver.max_iterations) break;
       if (!search(before, report)) break;
     }
-    if (getenv("DBG")) { printf("   it %d res %.1e conv %d E0 %.6e E1 %.6e touch %d convex %d\n", report.iterations, report.residual, report.converged, report.energy_J.front(), report.energy_J.back(), contact.touching(shape.x), nconvex); } // DBG
     report.touching = contact.touching(shape.x);
     return report;
   }
@@ -271,7 +267,6 @@ struct WiltMechanics::Impl {
       if (!contact.allows(shape.x, trial.x)) continue;
       const double after = energy(trial);
       if (after <= before + 1e-4 * share * slope) {
-        if (getenv("DBG2")) printf("      %2d res %.2e share %.4f longest %.4f turn %.3f gain %.3e/%.3e convexity %.4f\n", report.iterations, report.residual, share, longest, turn, before-after, -slope, convexity); // DBG
         shape = std::move(trial);
         report.energy_J.push_back(after);
         return true;

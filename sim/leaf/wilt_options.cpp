@@ -41,7 +41,8 @@ void validate_water(const WiltWaterOptions& w, double length_hours) {
            {"margin_gain", w.margin_gain, 0, 5, ""},
            {"margin_width_m", w.margin_width_m, 1e-4, 1, "m"},
            {"diffusivity_blade_m2_s", w.diffusivity_blade_m2_s, 1e-12, 1e-3, "m2/s"},
-           {"diffusivity_vein_m2_s", w.diffusivity_vein_m2_s, 1e-12, 1e-2, "m2/s"},
+           {"vein_conductivity_kg_m_s", w.vein_conductivity_kg_m_s, 0, 1e3, "kg/(m s)"},
+           {"conductance_loss", w.conductance_loss, 0, 0.999, ""},
            {"petiole_conductance_kg_s", w.petiole_conductance_kg_s, 1e-12, 1, "kg/s"},
            {"steps_per_hour", w.steps_per_hour, 0.01, 1e5, "1/h"}});
   for (std::size_t i = 0; i < w.supply_curve.size(); ++i) {

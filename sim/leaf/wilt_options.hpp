@@ -15,9 +15,10 @@ struct WiltWaterOptions {
   double cuticular_share = 0.15;           ///< of it that goes on with closed stomata (wind, heat, damage add to it), 0..1
   double margin_gain = 0.5;                ///< transpiration is (1 + gain) times as strong at the margin (thin boundary layer), 0..5
   double margin_width_m = 0.012;           ///< over which that gain fades, 1e-4..1
-  double diffusivity_blade_m2_s = 6e-9;    ///< of relative water content between fine veins, 1e-12..1e-3
-  double diffusivity_vein_m2_s = 2e-6;     ///< the same where the vein field is 1, 1e-12..1e-2
-  double petiole_conductance_kg_s = 4e-6;  ///< flow through the petiole per unit of RWC, 1e-12..1
+  double diffusivity_blade_m2_s = 6e-7;    ///< of relative water content in the blade, its fine veins included, 1e-12..1e-3
+  double vein_conductivity_kg_m_s = 0.25;  ///< flow along a main or side vein per section and gradient of RWC, 0..1e3
+  double conductance_loss = 0.98;          ///< share of both that goes with the turgor, 0..0.999
+  double petiole_conductance_kg_s = 2e-5;  ///< flow through the petiole per unit of RWC, 1e-12..1
   double steps_per_hour = 12;              ///< backward Euler steps, 0.01..1e5; the error falls with the first power of the step
 };
 
@@ -31,8 +32,8 @@ struct WiltTissueOptions {
   double blade_membrane_turgid_MPa = 10;   ///< modulus in the plane of the blade, 1e-2..1e5
   double blade_membrane_limp_MPa = 3;      ///< without turgor (mesophyll softens with it), 1e-2..1e5
   double compression_share = 0.05;         ///< of it against compression: fine wrinkles give way, 1e-3..1
-  double vein_turgid_MPa = 500;            ///< 1e-2..1e5
-  double vein_limp_MPa = 70;               ///< 1e-2..1e5
+  double vein_turgid_MPa = 500;            ///< and along the vein with and without turgor, 1e-2..1e5
+  double vein_limp_MPa = 70;               ///< in bending without turgor, 1e-2..1e5
   double petiole_turgid_MPa = 120;         ///< 1e-2..1e5
   double petiole_limp_MPa = 14;            ///< 1e-2..1e5
   double softening_exponent = 1.0;         ///< below the turgor-loss point bending moduli fall on as (w / w_tlp)^exponent, to a fifth; 0..4

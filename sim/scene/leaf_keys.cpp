@@ -31,9 +31,9 @@ void describe_top(KeyVisitor& v, LeafScene& s) {
   v.number({"variation", "Share of the measured intervals of ratios and angles that is drawn from"},
            o.variation, {0, 1});
   v.number({"asymmetry", "0: both halves alike, 1: drawn apart"}, o.asymmetry, {0, 1});
-  v.text({"points", "source = \"points\": CSV of group,x,y[,z] with group = left, right, midrib"},
+  v.text({"points", "source = \"points\": CSV of group,x,y[,z] with group = left, right, midrib, or JSON"},
          o.points_file, {});
-  v.text({"points_unit", "Unit of its numbers"}, s.points_unit, {"m", "cm", "mm"});
+  v.text({"points_unit", "Unit of its numbers (a JSON file may state its own)"}, s.points_unit, {"m", "cm", "mm"});
   v.text({"mesh_file", "source = \"mesh\": OBJ, PLY, OFF, STL or VTP"}, o.mesh_file, {});
   v.check("points", o.source != LeafSource::points || !o.points_file.empty(),
           [] { return "source = \"points\" needs the name of a file"; });

@@ -20,10 +20,11 @@ void describe_water(KeyVisitor& v, WiltWaterOptions& w) {
   v.number({"cuticular_share", "Of it that goes on with closed stomata"}, w.cuticular_share, {0, 1});
   v.number({"margin_gain", "Transpiration is 1 + gain times as strong at the margin"}, w.margin_gain, {0, 5});
   v.number({"margin_width_m", "Over which that fades"}, w.margin_width_m, {1e-4, 1, "m"});
-  v.number({"diffusivity_blade_m2_s", "Of relative water content between fine veins"},
+  v.number({"diffusivity_blade_m2_s", "Of relative water content in the blade, its fine veins included"},
            w.diffusivity_blade_m2_s, {1e-12, 1e-3, "m2/s"});
-  v.number({"diffusivity_vein_m2_s", "The same in a main vein"}, w.diffusivity_vein_m2_s,
-           {1e-12, 1e-2, "m2/s"});
+  v.number({"vein_conductivity_kg_m_s", "Flow along a vein per section and gradient of relative water content"},
+           w.vein_conductivity_kg_m_s, {0, 1e3, "kg/(m s)"});
+  v.number({"conductance_loss", "Share of both that goes with the turgor"}, w.conductance_loss, {0, 0.999});
   v.number({"petiole_conductance_kg_s", "Flow through the petiole per unit of relative water content"},
            w.petiole_conductance_kg_s, {1e-12, 1, "kg/s"});
   v.number({"steps_per_hour", "Backward Euler steps"}, w.steps_per_hour, {0.01, 1e5, "1/h"});
@@ -37,8 +38,8 @@ void describe_moduli(KeyVisitor& v, WiltTissueOptions& t) {
   v.number({"blade_membrane_turgid_MPa", "Modulus in the plane of the blade"}, t.blade_membrane_turgid_MPa,
            modulus);
   v.number({"blade_membrane_limp_MPa", "The same without turgor"}, t.blade_membrane_limp_MPa, modulus);
-  v.number({"vein_turgid_MPa", "Modulus of the veins"}, t.vein_turgid_MPa, modulus);
-  v.number({"vein_limp_MPa", "The same without turgor"}, t.vein_limp_MPa, modulus);
+  v.number({"vein_turgid_MPa", "Modulus of the veins; against stretching it stays"}, t.vein_turgid_MPa, modulus);
+  v.number({"vein_limp_MPa", "In bending without turgor"}, t.vein_limp_MPa, modulus);
   v.number({"petiole_turgid_MPa", "Modulus of the petiole"}, t.petiole_turgid_MPa, modulus);
   v.number({"petiole_limp_MPa", "The same without turgor"}, t.petiole_limp_MPa, modulus);
 }
@@ -81,7 +82,8 @@ void describe_wilt(KeyVisitor& v, WiltOptions& w) {
   WiltSolverOptions& s = w.solver;
   v.number({"gravity_m_s2", "Downward"}, s.gravity_m_s2, {0, 100, "m/s2"});
   v.whole({"max_iterations", "Newton steps for one moment"}, s.max_iterations, {1, 10000});
-  v.number({"tolerance", "Residual force over weight that ends a solve"}, s.tolerance, {1e-12, 0.1});
+  v.number({"tolerance", "Ends a solve: what one more step would gain, over the leaf's weight times its size"}, s.tolerance,
+           {1e-20, 0.1});
   v.number(
       {"contact_gap", "Distance at which parts of the blade repel each other, in mean edges; 0 = no contact"},
       s.contact_gap, {0, 3});

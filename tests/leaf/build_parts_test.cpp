@@ -140,6 +140,30 @@ TEST(Outline, CsvRoundTripAndUnits) {
   EXPECT_NEAR(mm.right_m[0].y, -0.031, 1e-12);
 }
 
+TEST(OutlineJson, ReadsGroupsAndSaysWhatIsWrong) {
+  const OutlinePoints p = parse_outline_json(R"({"unit": "cm", "left": [[1, 2], [3, 2, 1]], "right": [[1, -2], [3, -2]],
+    "midrib": [[0, 0], [4, 0]]})", "leaf.json");
+  ASSERT_EQ(p.left_m.size(), 2u);
+  EXPECT_LT(glm::distance(p.left_m[1], glm::dvec3(0.03, 0.02, 0.01)), 1e-15);
+  EXPECT_LT(glm::distance(p.right_m[0], glm::dvec3(0.01, -0.02, 0)), 1e-15);
+  const auto reason = [](const char* text) -> std::string {
+    try {
+      parse_outline_json(text, "leaf.json");
+    } catch (const InvalidInput& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(reason("{\n\"left\": [[1,\n}").find("leaf.json:3"), std::string::npos);
+  EXPECT_NE(reason("[]").find("object"), std::string::npos);
+  EXPECT_NE(reason(R"({"left": [[1, 2], [3, 2]]})").find("right is missing"), std::string::npos);
+  EXPECT_NE(reason(R"({"left": [[1, 2], [3]], "right": [], "midrib": []})").find("left[1] = [3]"), std::string::npos);
+  EXPECT_NE(reason(R"({"left": [[1, "a"]], "right": [], "midrib": []})").find("left[0][1]"), std::string::npos);
+  EXPECT_NE(reason(R"({"top": []})").find("'top' is unknown"), std::string::npos);
+  EXPECT_NE(reason(R"({"unit": "inch", "left": []})").find("inch"), std::string::npos);
+  EXPECT_NE(reason(R"({"left": [[1, 2]], "right": [[1, -2], [3, -2]], "midrib": [[0, 0], [4, 0]]})").find("at least 2"), std::string::npos);
+}
+
 TEST(Outline, MistakesAreNamedWithTheirLine) {
   const auto reason = [](const char* text, const char* unit = "m") -> std::string {
     try {

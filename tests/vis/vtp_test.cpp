@@ -1,5 +1,6 @@
 // Points, terrain and series files, read back with VTK.
 #include <gtest/gtest.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
@@ -29,6 +30,27 @@ vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& file) {
   reader->Update();
   EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
   return reader->GetOutput();
+}
+
+TEST(CurvesVtp, PointsAndPolylinesReadBack) {
+  const sample::Folder folder;
+  const std::vector<glm::dvec3> points{{0, 0, 0}, {0.01, 0, 0}, {0.02, 0.005, 0}, {0, 0, 0.03}};
+  for (const Compression compression : {Compression::lz4, Compression::zlib}) {
+    write_curves_vtp(folder / "c.vtp", points, {{0, 1, 2}, {3, 0}}, {2, 0.5}, compression);
+    const auto data = read(folder / "c.vtp");
+    ASSERT_EQ(data->GetNumberOfPoints(), 4);
+    EXPECT_EQ(data->GetNumberOfVerts(), 4);
+    ASSERT_EQ(data->GetNumberOfLines(), 2);
+    EXPECT_NEAR(data->GetPoint(2)[1], 5, 1e-6);  // millimetres
+    vtkNew<vtkIdList> ids;
+    data->GetLines()->GetCellAtId(0, ids);
+    ASSERT_EQ(ids->GetNumberOfIds(), 3);
+    EXPECT_EQ(ids->GetId(2), 2);
+    data->GetLines()->GetCellAtId(1, ids);
+    EXPECT_EQ(ids->GetId(0), 3);
+  }
+  EXPECT_THROW(write_curves_vtp(folder / "d.vtp", points, {{0, 4}}, {}), InvalidInput);
+  EXPECT_FALSE(std::filesystem::exists(folder / "d.vtp"));
 }
 
 TEST(PointsVtp, EveryPointReadsBack) {
