@@ -18,6 +18,7 @@ void add_render_command(CLI::App& app, const bool& quiet);
 void add_volume_command(CLI::App& app, const bool& quiet);
 void add_info_command(CLI::App& app, const bool& quiet);
 void add_check_command(CLI::App& app, const bool& quiet);
+void add_edit_command(CLI::App& app, const bool& quiet);
 
 /// "1280x720" -> (1280, 720). @throws InvalidInput.
 std::pair<int, int> parse_size(const std::string& text);

@@ -20,6 +20,7 @@ pov::FloorMaterial material_of(const floor::MaterialOptions& m) {
 pov::ObstacleKind obstacle_of(const std::string& name) {
   const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
   if (has("column") || has("pillar")) return pov::ObstacleKind::column;
+  if (has("cupboard") || has("cabinet") || has("shelf") || has("box")) return pov::ObstacleKind::cabinet;
   return has("bench") ? pov::ObstacleKind::bench : pov::ObstacleKind::desk;
 }
 
@@ -67,6 +68,7 @@ pov::StairSceneInput stair_input(const scene::FloorScene& scene, const scene::Ro
   in.going_m = s.going_m;
   in.rise_m = s.rise_m;
   in.width_m = s.width_m;
+  in.wall_height_m = scene.wall_height_m;
   return in;
 }
 

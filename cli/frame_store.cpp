@@ -1,6 +1,7 @@
 #include "cli/frame_store.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/core/errors.hpp"
 #include "sim/grass/mingle.hpp"
@@ -24,9 +25,17 @@ void FrameStore::want(double wd, int finest_lod, bool blades) {
   w.blades = w.blades || blades;
 }
 
+std::map<double, FrameStore::Wanted>::const_iterator FrameStore::find(double wd) const {
+  return std::find_if(wanted_.begin(), wanted_.end(), [&](const auto& w) { return std::abs(w.first - wd) < 1e-9; });
+}
+
+bool FrameStore::wants_blades(double wd) const {
+  const auto wanted = find(wd);
+  return wanted != wanted_.end() && wanted->second.blades;
+}
+
 void FrameStore::take(const grass::GrassFrame& frame) {
-  const auto wanted = std::find_if(wanted_.begin(), wanted_.end(),
-                                   [&](const auto& w) { return std::abs(w.first - frame.wd) < 1e-9; });
+  const auto wanted = find(frame.wd);
   if (wanted == wanted_.end()) return;
   auto kept = std::make_unique<Kept>();
   kept->lod[0] = *frame.texel;

@@ -15,6 +15,8 @@ class FrameStore {
  public:
   /// Asks for the key frame at `wd`. @param finest_lod the finest level of detail that will be drawn, 0..3.
   void want(double wd, int finest_lod, bool blades);
+  /// Was the frame at `wd` asked for, with its blades?
+  bool wants_blades(double wd) const;
   /// Keeps the frame if it was asked for.
   void take(const grass::GrassFrame& frame);
   /// Pointers into the store. @pre all variants of that wd were taken.
@@ -30,6 +32,8 @@ class FrameStore {
     BladeRibbons blades;
     pov::VariantFrame view;
   };
+  std::map<double, Wanted>::const_iterator find(double wd) const;
+
   std::map<double, Wanted> wanted_;
   std::map<std::pair<double, int>, std::unique_ptr<Kept>> kept_;  // (wd, variant)
 };

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pov/blade_mesh.hpp"
 #include "sim/core/errors.hpp"
 #include "sim/grass/points.hpp"
 #include "sim/grass/voxelize.hpp"
 #include "vis/atomic_file.hpp"
+#include "vis/mesh_files.hpp"
 
 namespace witherfield::cli {
 
@@ -30,7 +32,8 @@ FrameWriter::FrameWriter(const RunFolder& folder, const scene::GrassScene& scene
       whole_(std::move(whole)) {
   std::error_code error;
   for (const auto& [wanted, name] :
-       {std::pair{output_.fields, "texel"}, {output_.optics, "optics"}, {output_.points, "points"}}) {
+       {std::pair{output_.fields, "texel"}, {output_.optics, "optics"}, {output_.points, "points"},
+        {output_.blades, "blades"}}) {
     if (!wanted) continue;
     std::filesystem::create_directories(folder_.path() / name, error);
     if (error)
@@ -80,15 +83,15 @@ void FrameWriter::write(const grass::GrassFrame& frame) {
     r.files.emplace_back(series, path_of(series, frame, extension));
     return folder_.path() / r.files.back().second;
   };
-  if (output_.fields)
-    vis::merge_ranges(
-        r.ranges, vis::write_texel_vti(add("texel", "vti"), *frame.texel, box_, false, stamp, compression));
-  if (output_.optics)
-    vis::merge_ranges(
-        r.ranges, vis::write_texel_vti(add("optics", "vti"), *frame.texel, box_, true, stamp, compression));
-  if (output_.points)
-    vis::merge_ranges(r.ranges,
-                      vis::write_points_vtp(add("points", "vtp"), *frame.points, stamp, compression));
+  const bool all = frame.variant == 0 || output_.other_variants == "all";
+  const auto merge = [&](const vis::ValueRanges& ranges) { vis::merge_ranges(r.ranges, ranges); };
+  if (output_.fields && (all || output_.other_variants == "fields"))
+    merge(vis::write_texel_vti(add("texel", "vti"), *frame.texel, box_, false, stamp, compression));
+  if (output_.optics && all)
+    merge(vis::write_texel_vti(add("optics", "vti"), *frame.texel, box_, true, stamp, compression));
+  if (output_.points && all) merge(vis::write_points_vtp(add("points", "vtp"), *frame.points, stamp, compression));
+  if (output_.blades && all)
+    merge(vis::write_surface_vtp(add("blades", "vtp"), pov::blade_surface(*frame.blades, {}), stamp, "mm", compression));
   frames_.push_back(r);
   vis::write_whole_file(folder_.partial_file(), partial_json(frames_));
 }
@@ -108,6 +111,7 @@ void FrameWriter::write_series() const {
   write_series("grass", "texel");
   write_series("grass_optics", "optics");
   write_series("grass_points", "points");
+  write_series("grass_blades", "blades");
 }
 
 }  // namespace witherfield::cli

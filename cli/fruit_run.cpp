@@ -28,22 +28,36 @@ ObjectLooks looks_of(const std::string& crop) {
   ObjectLooks looks;
   const bool wheat = crop == "wheat";
   looks.other.kind = wheat ? LookKind::grain : LookKind::matte;
-  looks.by_organ[int(OrganKind::kernel)].kind = wheat ? LookKind::grain : LookKind::waxy;
+  pov::ObjectLook& kernel = looks.by_organ[int(OrganKind::kernel)];
+  kernel.kind = wheat ? LookKind::grain : LookKind::waxy;
+  if (crop == "planted") {  // berries: a downy skin over juicy flesh
+    kernel.gloss = 0.25;
+    kernel.softness = 1.5;
+  }
   looks.by_organ[int(OrganKind::user_mesh)].kind = LookKind::waxy;
   return looks;
 }
 
-/// The user's own control mesh, in metres.
-fruit::ControlMesh load_control_mesh(const scene::FruitScene& s) {
+/// The user's own control mesh, in metres, with the tags of the scene file.
+void load_control_mesh(scene::FruitScene& s) {
   const vis::MeshFile file = vis::read_mesh_file(s.mesh_file);
-  const double metre = file.length_unit == "m" ? 1 : file.length_unit == "mm" ? 1e-3 : s.mesh_unit_mm * 1e-3;
-  fruit::ControlMesh mesh;
+  const int n = int(file.surface.position_m.size());
+  const auto known = [&](const char* key, int vertex) {
+    if (vertex >= n)
+      throw InvalidInput(fmt::format("{} names vertex {}, but '{}' has {} vertices, numbered from 0", key,
+                                     vertex, s.mesh_file, n));
+  };
+  fruit::ControlMesh& mesh = s.fruit.mesh;
   for (const glm::dvec3& p : file.surface.position_m)
-    mesh.position_m.push_back(file.length_unit.empty() ? p * metre : p);
+    mesh.position_m.push_back(file.length_unit.empty() ? p * (s.mesh_unit_mm * 1e-3) : p);
   mesh.triangles = file.surface.triangles;
-  for (const auto& [a, b] : s.mesh_creases) mesh.crease_edges.push_back({a, b});
+  for (const auto& [a, b] : s.mesh_creases) {
+    for (const int v : {a, b}) known("mesh_creases", v);
+    mesh.crease_edges.push_back({a, b});
+  }
+  for (const int v : s.mesh_sharp) known("mesh_sharp", v);
   mesh.sharp_vertices = s.mesh_sharp;
-  return mesh;
+  s.fruit.mesh_uv = file.surface.uv;
 }
 
 void check_shells(const fruit::FruitOptions& options, RunRecord& record) {
@@ -79,7 +93,7 @@ class FruitRun : public RunStages {
         clock_(record.stages) {}
 
   void prepare() override {
-    if (!scene_.mesh_file.empty()) scene_.fruit.mesh = load_control_mesh(scene_);
+    if (!scene_.mesh_file.empty()) load_control_mesh(scene_);
     fruit::validate(scene_.fruit);
   }
 

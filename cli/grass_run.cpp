@@ -11,7 +11,9 @@
 #include "cli/hill.hpp"
 #include "cli/run_folder.hpp"
 #include "cli/run_record.hpp"
+#include "pov/blade_mesh.hpp"
 #include "pov/scene_writer.hpp"
+#include "sim/check/surface_check.hpp"
 #include "sim/core/parallel.hpp"
 #include "sim/scene/scene.hpp"
 #include "vis/atomic_file.hpp"
@@ -54,6 +56,28 @@ void tell_simulation(RunRecord& run, const grass::GrassReport& r) {
       "points", Json{{"first", r.points_first}, {"last", r.points_last}, {"merges", r.merges}}.dump());
 }
 
+/// The blades as meshes, as the pictures and blades/*.vtp have them: what was found over all of them.
+struct BladeFindings {
+  std::size_t meshes = 0, shells = 0, faces = 0, not_manifold = 0, degenerate = 0, self_intersections = 0;
+
+  void look_at(const BladeRibbons& blades) {
+    const check::MeshReport r = check::check_surface(pov::blade_surface(blades, {}));
+    ++meshes;
+    shells += r.components;
+    faces += r.faces;
+    not_manifold += r.non_manifold_edges + r.non_manifold_vertices + r.clashing_edges;
+    degenerate += r.degenerate_faces + r.duplicate_faces + r.non_finite_vertices;
+    self_intersections += r.self_intersections;  // of a blade with itself; blades do touch one another
+  }
+  void tell(RunRecord& run) const {
+    if (!meshes) return;
+    const Json j{{"meshes", meshes}, {"blades", shells}, {"faces", faces}, {"self_intersections", self_intersections}};
+    run.details.emplace_back("blade_meshes", j.dump());
+    run.checks.push_back({"blades_not_manifold", double(not_manifold), 0, "edges and vertices"});
+    run.checks.push_back({"blades_degenerate_faces", double(degenerate), 0, "faces"});
+  }
+};
+
 /// The stages of one run, in order. See RunStages.
 class GrassRun : public RunStages {
  public:
@@ -80,6 +104,7 @@ class GrassRun : public RunStages {
       for (std::size_t i = 0; i < scene_.stills.size(); ++i) want_frames(i);
     FrameWriter writer(folder_, scene_, std::move(whole));
     const Progress bar = console_.progress();
+    BladeFindings blades;
     const grass::GrassReport report = grass::simulate_grass(
         scene_.grass,
         [&](const grass::GrassFrame& frame) {
@@ -87,9 +112,11 @@ class GrassRun : public RunStages {
           writer.write(frame);
           record_.frames = writer.frames();
           store_.take(frame);
+          if (scene_.output.blades || store_.wants_blades(frame.wd)) blades.look_at(*frame.blades);
         },
         [&](std::string_view stage, double fraction) { bar(stage, fraction); });
     tell_simulation(record_, report);
+    blades.tell(record_);
     writer.write_series();
     clock_.start("");
   }

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "cli/console.hpp"
-#include "cli/object_pictures.hpp"
+#include "cli/leaf_input.hpp"
+#include "cli/leaf_pictures.hpp"
 #include "cli/object_writer.hpp"
 #include "sim/check/mesh_check.hpp"
 #include "sim/core/errors.hpp"
@@ -28,40 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr double kBalanceLimit = 1e-9;   // of the leaf's water, relative
 constexpr double kMidribLimit = 0.02;    // change of the midrib's length in wilting (docs/physics.md)
-constexpr int kBlade = 0, kPetiole = 1;  // organ_id
-
-leaf::LeafInput read_input(const scene::LeafScene& s) {
-  leaf::LeafInput input;
-  if (s.leaf.source == leaf::LeafSource::points) {
-    std::ifstream in(s.leaf.points_file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in) throw IoFailure("cannot read '" + s.leaf.points_file + "'");
-    const bool json = fs::path(s.leaf.points_file).extension() == ".json";
-    input.points = (json ? leaf::parse_outline_json : leaf::parse_outline_csv)(text.str(), s.leaf.points_file, s.points_unit);
-  }
-  if (s.leaf.source == leaf::LeafSource::mesh) {
-    vis::MeshFile file = vis::read_mesh_file(s.leaf.mesh_file);
-    if (file.length_unit.empty())
-      for (glm::dvec3& p : file.surface.position_m) p *= s.mesh_unit_mm * 1e-3;
-    input.mesh = std::move(file.surface);
-  }
-  return input;
-}
-
-/// Blade and petiole as one surface with organ_id.
-Surface whole_leaf(const leaf::LeafModel& model, const std::vector<glm::dvec3>& position_m) {
-  Surface s = leaf::to_surface(model, position_m);
-  s.make_field("organ_id");
-  std::fill(s.make_field("chlorophyll_ug_cm2").values.begin(),
-            s.make_field("chlorophyll_ug_cm2").values.end(), float(model.chlorophyll_ug_cm2));
-  Surface petiole = leaf::petiole_surface(model.petiole);
-  if (petiole.triangles.empty()) return s;
-  auto& organ = petiole.make_field("organ_id").values;
-  std::fill(organ.begin(), organ.end(), float(kPetiole));
-  append(s, petiole);
-  return s;
-}
 
 struct KeyFrame {
   double wd = 0, time_days = 0;
@@ -80,7 +45,7 @@ class LeafRun : public RunStages {
   void prepare() override {
     leaf::validate(scene_.leaf);
     clock_.start("build");
-    model_ = leaf::build_leaf(scene_.leaf, read_input(scene_));
+    model_ = leaf::build_leaf(scene_.leaf, read_leaf_input(scene_));
     clock_.start("");
     console_.note(
         fmt::format("leaf of {} vertices, {:.1f} cm2", model_.flat.position_m.size(), model_.area_m2 * 1e4));
@@ -107,11 +72,8 @@ class LeafRun : public RunStages {
   void write_pictures() override {
     if (!scene_.output.pov || scene_.stills.empty()) return;
     clock_.start("write POV-Ray scenes");
-    ObjectLooks looks;
-    looks.other.kind = pov::LookKind::leaf;
-    looks.by_organ[kPetiole].kind = pov::LookKind::grain;
     write_object_stills(
-        folder_, record_, scene_.stills, looks, [&](const ObjectStill& still) { return objects_of(still); },
+        folder_, record_, scene_.stills, leaf_looks(model_), [&](const ObjectStill& still) { return objects_of(still); },
         console_);
     clock_.start("");
   }
@@ -211,7 +173,7 @@ class LeafRun : public RunStages {
     const Surface& last = frames_.back().surface;
     const auto& organ = last.field("organ_id").values;
     const Surface blade = keep_faces(
-        last, [&](std::size_t f) { return int(organ[std::size_t(last.triangles[f][0])]) == kBlade; });
+        last, [&](std::size_t f) { return int(organ[std::size_t(last.triangles[f][0])]) == kBladeOrgan; });
     const check::MeshReport r = check::check_mesh(to_tri_mesh(blade, true));
     record_.checks.push_back({"blade_degenerate_faces", double(r.degenerate_faces), 0, "faces"});
     record_.checks.push_back({"blade_self_intersections", double(r.self_intersections), 0, "pairs"});
@@ -220,31 +182,41 @@ class LeafRun : public RunStages {
   }
 
   std::vector<Surface> objects_of(const ObjectStill& still) const {
+    if (still.subject == "stages") return stage_objects(model_);
     std::vector<Surface> objects;
-    if (still.subject == "stages") {
-      for (const leaf::Stage& stage : model_.stages)
-        if (!stage.surface.triangles.empty()) objects.push_back(paper_white(stage.surface));
-      return objects;
-    }
     for (const double wd : still.wd) {
       const KeyFrame* best = &frames_.front();
       for (const KeyFrame& f : frames_)
         if (std::abs(f.wd - wd) < std::abs(best->wd - wd)) best = &f;
-      objects.push_back(without(best->surface, still.hide));
+      Surface leaf = without_vein_colour(best->surface, model_.chlorophyll_ug_cm2);
+      if (still.subject == "handles") show_handles(leaf, *best);
+      if (scene_.leaf.wilts) add_stem(leaf, model_, lowest_m() - 0.005);
+      objects.push_back(without(leaf, still.hide));
     }
     return objects;
   }
 
-  static Surface paper_white(Surface s) {
-    std::fill(s.make_field("diffuse").values.begin(), s.make_field("diffuse").values.end(), 0.35f);
-    return s;
+  double lowest_m() const {
+    double low = 0;
+    for (const KeyFrame& f : frames_)
+      for (const glm::dvec3& p : f.surface.position_m) low = std::min(low, p.z);
+    return low;
+  }
+
+  /// At the key that the frame shows; before the first key all handles are held where they are.
+  void show_handles(Surface& leaf, const KeyFrame& frame) const {
+    const leaf::EditOptions& edit = scene_.leaf.edit;
+    const std::size_t shown = std::size_t(&frame - frames_.data());
+    const bool edited = !scene_.leaf.wilts && shown > 0 && shown <= edit.keys.size();
+    add_handles(leaf, model_, edit, edited ? edit.keys[shown - 1] : leaf::EditKey{});
   }
 
   static Surface without(const Surface& surface, const std::vector<std::string>& organs) {
     if (organs.empty()) return surface;
     const auto& organ = surface.field("organ_id").values;
     return keep_faces(surface, [&](std::size_t f) {
-      const char* name = int(organ[std::size_t(surface.triangles[f][0])]) == kBlade ? "blade" : "petiole";
+      const int id = int(organ[std::size_t(surface.triangles[f][0])]);
+      const char* name = id == kBladeOrgan ? "blade" : id == kPetioleOrgan ? "petiole" : id == kStemOrgan ? "stem" : "marker";
       return std::find(organs.begin(), organs.end(), name) == organs.end();
     });
   }

@@ -14,18 +14,21 @@
 namespace {
 
 constexpr const char* kDescription =
-    "witherfield - grass that withers, simulated as time-varying volumes\n\n"
-    "A scene file (TOML) is simulated into a run: a folder with VTK data for ParaView and with POV-Ray\n"
-    "scenes, which are then turned into pictures.";
+    "witherfield - things that change with time: grass that withers, ears that ripen, leaves that wilt,\n"
+    "floors that wear\n\n"
+    "A scene file (TOML; kind = grass, fruit, leaf or floor) is simulated into a run: a folder with VTK\n"
+    "data for ParaView and with POV-Ray scenes, which are then turned into pictures.";
 
 constexpr const char* kFooter =
     "\nFrom a scene to pictures:\n"
-    "  witherfield run --print-defaults grass > meadow.toml    a commented scene to start from\n"
+    "  witherfield run --print-defaults grass > meadow.toml    a commented scene to start from; also\n"
+    "                                                          fruit, leaf, floor\n"
     "  witherfield run meadow.toml --preview                   try it, small and quick\n"
     "  witherfield run meadow.toml                             simulate; writes out/meadow\n"
     "  witherfield render out/meadow                           POV-Ray pictures, in out/meadow/images\n"
     "  witherfield volume out/meadow --field water --wd 0.3 -o water.png\n"
-    "  paraview out/meadow/grass.pvd                           look at the data\n\n"
+    "  paraview out/meadow/grass.pvd                           look at the data\n"
+    "  witherfield check ear.obj                               is a mesh sound?\n\n"
     "`witherfield COMMAND --help` explains each command.\n"
     "Exit codes: 0 done, 1 a check failed, 2 wrong input, 3 a file or program failed, 4 a solver failed.";
 
@@ -67,9 +70,10 @@ int main(int argc, char** argv) {
   cli::add_volume_command(app, quiet);
   cli::add_info_command(app, quiet);
   cli::add_check_command(app, quiet);
+  cli::add_edit_command(app, quiet);
   if (const std::string word = unknown_command(app, argc, argv); !word.empty())
     return fail(
-        "unknown command '" + word + "'; there are run, render, film, volume, info, check (witherfield --help)", 2);
+        "unknown command '" + word + "'; there are run, render, film, volume, info, check, edit (witherfield --help)", 2);
   try {
     app.parse(argc, argv);
     return 0;
@@ -80,7 +84,10 @@ int main(int argc, char** argv) {
   } catch (const cli::Interrupted& e) {
     return fail("interrupted", 128 + e.signal);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory; try fewer variants, a smaller texel.resolution, or --preview", 4);
+    return fail(
+        "out of memory; try --preview, or a coarser scene (texel.resolution, steps, fewer variants or "
+        "grains)",
+        4);
   } catch (const std::exception& e) {
     return fail(std::string("internal error, please report it: ") + e.what(), 4);
   }

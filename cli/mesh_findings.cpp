@@ -22,7 +22,7 @@ std::vector<std::vector<int>> listed(const Ids& ids) {
   return out;
 }
 
-/// The parts that kernel_id and organ_id name at the first face of each shell.
+/// The parts that kernel_id, organ_id and blade_id name at the first face of each shell.
 std::vector<std::string> parts_of(const Surface& surface, const check::MeshReport& report) {
   std::vector<std::string> parts;
   for (const check::ComponentReport& c : report.component) {
@@ -32,9 +32,10 @@ std::vector<std::string> parts_of(const Surface& surface, const check::MeshRepor
       const auto face = std::size_t(c.first_face);
       return int(std::lround(f.values[f.on_faces ? face : std::size_t(surface.triangles[face][0])]));
     };
-    const int kernel = label("kernel_id"), organ = label("organ_id");
+    const int kernel = label("kernel_id"), organ = label("organ_id"), blade = label("blade_id");
     parts.push_back(kernel >= 0  ? "kernel " + std::to_string(kernel)
                     : organ >= 0 ? "organ " + std::to_string(organ)
+                    : blade >= 0 ? "blade " + std::to_string(blade)
                                  : "");
   }
   return parts;

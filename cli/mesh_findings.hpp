@@ -35,7 +35,7 @@ struct MeshFindings {
   int error_code = 0;
   check::MeshReport report;
   std::vector<Finding> findings;
-  std::vector<std::string> part;  ///< of each shell: "kernel 12", "organ 3", "" when the mesh does not say
+  std::vector<std::string> part;  ///< of each shell: "kernel 12", "organ 3", "blade 7", "" when the mesh does not say
   std::vector<check::Overlap> overlaps;  ///< greatest fraction first
   double area = 0, volume = 0;           ///< in the file's own unit of length
   double per_metre = 1;                  ///< the file's units of length in a metre

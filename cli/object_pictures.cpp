@@ -35,6 +35,7 @@ pov::ObjectSceneInput scene_of(const ObjectStill& still, const std::vector<Surfa
     object.surface = &surface;
     object.pitch_deg = still.pitch_deg;
     object.yaw_deg = still.yaw_deg;
+    object.facets = still.subject == "subdivision";  // a mesh shows as what it is
     object.looks = looks.by_organ;
     object.other_look = looks.other;
   }
@@ -43,7 +44,7 @@ pov::ObjectSceneInput scene_of(const ObjectStill& still, const std::vector<Surfa
     const pov::Bounds box = pov::bounds_of({&object, 1});
     widest = std::max(widest, box.high.x - box.low.x);
   }
-  pov::stand_in_row(input.objects, still.gap * widest);
+  pov::stand_in_row(input.objects, still.gap * widest, looks.common_ground);
   input.still.name = still.name;
   input.still.width_px = still.width_px;
   input.still.height_px = still.height_px;

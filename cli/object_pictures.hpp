@@ -20,6 +20,7 @@ using ObjectsOf = std::function<std::vector<Surface>(const ObjectStill&)>;
 struct ObjectLooks {
   std::map<int, pov::ObjectLook> by_organ;
   pov::ObjectLook other;
+  bool common_ground = false;  ///< objects side by side keep their heights; else each stands on the ground
 };
 
 /// Writes pov/<still>_object.pov for every still and records it. @throws IoFailure, InvalidInput,

@@ -19,14 +19,14 @@ namespace {
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  witherfield run examples/hillside.toml                 writes out/hillside\n"
-    "  witherfield run examples/hillside.toml --preview -o try   a small version in seconds, to check a "
-    "scene\n"
+    "  witherfield run examples/maize_ear.toml --preview -o try   small, in seconds, to check a scene\n"
     "  witherfield run meadow.toml --resume                   go on after an interruption or a full disk\n"
-    "  witherfield run --print-defaults grass > my.toml       every key, commented, with its default and "
+    "  witherfield run office.toml --footprints out/office/footprints.bin -o again   new look, same walks\n"
+    "  witherfield run --print-defaults fruit > my.toml       every key, commented, with its default and "
     "range\n\n"
-    "A run holds grass.pvd (open it in ParaView; or view_in_paraview.py, which sets colours and legends),\n"
-    "texel/, optics/, points/ (the key frames), terrain.vtp, pov/ (scenes for `witherfield render`) and\n"
-    "run.json (the scene with every default, value ranges, checks, timings), written last.\n"
+    "A run holds a series for ParaView, KIND.pvd (grass.pvd, fruit.pvd, leaf.pvd, floor.pvd), and the files\n"
+    "of its key frames below; pov/ (scenes for `witherfield render`); and run.json (the scene with every\n"
+    "default, value ranges, checks, timings), written last. docs/formats.md lists all files and arrays.\n"
     "The same scene gives the same files, byte for byte, for any number of threads.";
 
 struct Options {
@@ -45,6 +45,8 @@ void run(Options& o, const bool& quiet) {
         "--help`");
   Console console(quiet);
   const std::string kind = scene::scene_kind(o.request.scene);
+  if (kind != "floor" && (!o.request.visits.empty() || !o.request.footprints.empty()))
+    throw InvalidInput("--visits and --footprints are for floors; " + o.request.scene + " is of kind \"" + kind + "\"");
   if (kind == "grass") run_grass(o.request, console);
   if (kind == "fruit") run_fruit(o.request, console);
   if (kind == "leaf") run_leaf(o.request, console);
@@ -67,6 +69,11 @@ void add_run_command(CLI::App& app, const bool& quiet) {
       c->add_flag("--resume", o->request.resume, "Finish a run of this very scene that was broken off");
   c->add_flag("--force", o->request.force, "Replace the run that is in the folder (removes its files only)")
       ->excludes(resume);
+  c->add_option("--visits", o->request.visits, "Floors: walk only these visits (several machines can share the work)")
+      ->type_name("FROM:UNTIL");
+  c->add_option("--footprints", o->request.footprints,
+                "Floors: take the footprints of earlier runs; only visits that go another way are walked")
+      ->type_name("FILE.bin");
   c->add_option("--print-defaults", o->print_defaults,
                 "Print a complete commented scene of KIND (grass, fruit, leaf, floor) and exit")
       ->type_name("KIND");

@@ -31,7 +31,7 @@ bool written_by_a_run(const std::string& name) {
       "|texel/texel_(v[0-9]+_)?[0-9]{4,}\\.vti|optics/optics_(v[0-9]+_)?[0-9]{4,}\\.vti"
       "|points/points_(v[0-9]+_)?[0-9]{4,}\\.vtp"
       "|(fruit|leaf|floor)\\.pvd|(fruit|leaf|floor)/(fruit|leaf|floor)_[0-9]{4,}\\.(vtp|vti|obj|ply)|leaf/"
-      "stage_[0-9]_[a-z]+\\.vtp|footprints\\.bin"
+      "stage_[0-9]_[a-z]+\\.vtp|footprints\\.(bin|vtp|csv)|walks\\.vtp"
       "|film/[a-z0-9_]+\\.(mp4|json)|film/[a-z0-9_]+_(keys|frames)/.+"
       "|pov/.+|images/[a-z0-9_]+_(texel|blades|object|room)\\.(png|hdr))(\\.part)?");
   return std::regex_match(name, own);

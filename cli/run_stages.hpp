@@ -18,6 +18,8 @@ struct RunRequest {
   std::string folder;  ///< "" = out/<name of the scene>
   int threads = 0;     ///< 0 = all
   bool preview = false, resume = false, force = false;
+  std::string visits;                   ///< floors: stretch of visits to walk, "FROM:UNTIL"; "" = as the scene says
+  std::vector<std::string> footprints;  ///< floors: footprints.bin of earlier runs, besides the scene's
 };
 
 /// The stages of one run, called in this order.

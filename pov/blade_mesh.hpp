@@ -6,6 +6,7 @@
 
 #include "pov/prelight.hpp"
 #include "sim/core/blade_ribbons.hpp"
+#include "sim/core/surface.hpp"
 
 namespace witherfield::pov {
 
@@ -22,8 +23,10 @@ struct AtlasLayout {
 };
 AtlasLayout atlas_layout(int blades);
 
-/// mesh2{...} in texel coordinates (flipped, times unit), with normals splayed as across a round blade, uv
-/// for the atlas.
+/// The blades as one open surface in texel coordinates, a shell per blade in the blades' order (cones: a tube with a
+/// seam): normals splayed as across a round blade, uv for the atlas, fields blade_id, water, chlorophyll_ug_cm2, diffuse.
+Surface blade_surface(const BladeRibbons& blades, const BladeDetail& detail);
+/// Its mesh2{...} (flipped, times unit).
 std::string blade_mesh(const BladeRibbons& blades, const BladeDetail& detail, double unit);
 
 /// Three pictures of the same layout: reflectance, transmittance, and the light that is not the sun's beam

@@ -95,9 +95,9 @@ struct BladeWriter {
 
   void note_ground(const TexelPrelight& p, const Illumination& sun) {
     const auto shading = p.shade(sun, c.input->still.camera.position_m * 1e3);
-    const double sky = p.ground_sky();
-    ground.add({p.ground_sun(sun.to_sun), sky, scattered_light(sun, p.mean_albedo(), sky),
-                shading.mean_sun + shading.mean_rest, p.mean_diffuse()},
+    const GroundShares g = p.ground(sun.to_sun);
+    ground.add({g.sun, g.sky, scattered_light(sun, p.mean_albedo(), g.sky), shading.mean_sun + shading.mean_rest,
+                p.mean_diffuse()},
                1);
   }
 

@@ -10,8 +10,8 @@
 namespace witherfield::pov {
 namespace {
 
-/// How a material mirrors when its gloss is 0, 1/2 and 1. Dull surfaces spread their mirror image: a fine relief of normals
-/// that the samples of a pixel average.
+/// How a material shines at some gloss. A dull surface spreads its mirror image so far that only the highlight of a wide
+/// lobe is left; between, the image fades. (A fine relief of normals would spread it too, but in specks.)
 struct Shine {
   double mirror, bumps, specular, roughness;
 };
@@ -48,10 +48,10 @@ std::string floor_texture_text(const FloorFiles& files, const FloorLook& look, c
   Text t;
   // Inner textures stand in the picture's own square: texture_map transforms them along with the pattern.
   t << "#declare " << name << "=texture{image_pattern{png \"" << files.gloss << "\" gamma 1.0 interpolate 2} texture_map{[0 "
-    << layer(files, {0.02, 0, 0.03, 0.15}, area, 0.001) << "]\n [0.30 "
-    << layer(files, {0.10, 0.020, 0.10, 0.06}, area, 0.004) << "]\n [0.60 "
-    << layer(files, {0.50, 0.006, 0.22, 0.02}, area, 0.006) << "]\n [0.9 "
-    << layer(files, {1.0, varnish ? 0.0035 : 0.002, 0.45, 0.004}, area, 0.08) << "]}\n rotate x*90 scale "
+    << layer(files, {0.0, 0, 0.04, 0.2}, area, 0.001) << "]\n [0.30 "
+    << layer(files, {0.08, 0, 0.12, 0.07}, area, 0.004) << "]\n [0.60 "
+    << layer(files, {0.45, 0, 0.06, 0.03}, area, 0.006) << "]\n [0.9 "
+    << layer(files, {1.0, varnish ? 0.0035 : 0.002, 0.0, 0.01}, area, 0.08) << "]}\n rotate x*90 scale "
     << glm::dvec3(size.x, 1, size.y) * unit << " translate " << glm::dvec3(area.low_m.x, 0, area.low_m.y) * unit << "}\n";
   return t.str();
 }

@@ -96,11 +96,12 @@ Camera frame_objects(std::span<const ObjectPlacement> objects, double azimuth_de
   return camera;
 }
 
-void stand_in_row(std::span<ObjectPlacement> objects, double gap_m) {
+void stand_in_row(std::span<ObjectPlacement> objects, double gap_m, bool common_ground) {
   double x = 0;
+  const double lowest = common_ground && !objects.empty() ? bounds_of(objects).low.z : 0.0;
   for (ObjectPlacement& o : objects) {
     const Bounds b = bounds_of(std::span(&o, 1));
-    o.position_m += glm::dvec3(x - b.low.x, -0.5 * (b.low.y + b.high.y), -b.low.z);
+    o.position_m += glm::dvec3(x - b.low.x, -0.5 * (b.low.y + b.high.y), common_ground ? -lowest : -b.low.z);
     x += b.high.x - b.low.x + gap_m;
   }
 }

@@ -25,7 +25,7 @@ glm::vec3 unit(const glm::vec3& v) {
 }
 
 LitVertex middle(const LitVertex& a, const LitVertex& b) {
-  return {0.5f * (a.position_m + b.position_m), unit(a.normal + b.normal), 0.5f * (a.local_m + b.local_m),
+  return {0.5f * (a.position_m + b.position_m), unit(a.normal + b.normal), 0.5f * (a.local_m + b.local_m), 0.5f * (a.uv + b.uv),
           0.5f * (a.front + b.front),           0.5f * (a.back + b.back),  0.5f * (a.through + b.through),
           0.5f * (a.spread_m + b.spread_m), a.seen || b.seen};
 }
@@ -152,6 +152,7 @@ LitMesh place_mesh(const ObjectPlacement& o) {
     x.position_m = glm::vec3(o.world(s.position_m[v]));
     x.local_m = glm::vec3(s.position_m[v]);
     x.normal = unit(glm::vec3(o.world(normals[v]) - origin));
+    if (!s.uv.empty()) x.uv = glm::vec2(s.uv[v]);
     x.front = colour_at(diffuse, int(v));
     x.spread_m = spread_of(*look[v]) * float(o.scale);
     if (look[v]->kind == LookKind::leaf) {

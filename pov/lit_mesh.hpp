@@ -2,6 +2,7 @@
 // relief and the tissue's softness at every vertex.
 #pragma once
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace witherfield::pov {
 struct LitVertex {
   glm::vec3 position_m{0.0f}, normal{0.0f};  ///< world; the normal with its relief
   glm::vec3 local_m{0.0f};                   ///< in the surface's own axes: what relief is made from
+  glm::vec2 uv{0.0f};                        ///< texture coordinates; 0 where the surface has none
   glm::vec3 front{0.0f};                     ///< reflectance of the outer (upper) side
   glm::vec3 back{0.0f}, through{0.0f};       ///< leaves: reflectance of the lower side, transmittance
   glm::vec3 spread_m{0.0f};                  ///< how far red, green, blue light wanders below the skin

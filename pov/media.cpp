@@ -25,7 +25,7 @@ double quantile(std::span<const float> values, double q) {
 }
 
 void declare(Text& scene, const SceneContext& c, const MediaBlock& b, std::vector<float>& samples,
-             double full, const std::string& name) {
+             double full, const std::string& name, const std::string& map = "") {
   // The lowest layer of grass stands also for the half voxel below it.
   const std::size_t layer = std::size_t(b.nx) * b.ny;
   std::copy_n(samples.begin() + std::ptrdiff_t(layer), layer, samples.begin());
@@ -33,7 +33,7 @@ void declare(Text& scene, const SceneContext& c, const MediaBlock& b, std::vecto
   write_file(c.folder / file, encode_df3(samples, b.nx, b.ny, b.nz, full));
   const double h = b.spacing_m * c.unit;
   // DF3 sample i lies at i/N of the unit cube: scaled to N spacings, the first sample is moved to its place.
-  scene << "#declare " << name << "=density{density_file df3 \"" << file << "\" interpolate 1 scale <"
+  scene << "#declare " << name << "=density{density_file df3 \"" << file << "\" interpolate 1 " << map << "scale <"
         << b.nx * h << "," << b.nz * h << "," << b.ny * h << "> translate " << flip(b.first_m, c.unit)
         << "}\n";
 }
@@ -44,12 +44,12 @@ std::string interior_text(const MediaNames& names, double per_unit, const glm::d
   Text head, t;
   head << "media{method 2 intervals max(5,min(" << kMostIntervals << ",int(" << intervals
        << "*IQ))) samples 1,1 jitter 0 ";
-  t << "interior{" << head.str() << "absorption " << per_unit * names.full_density << " density{"
-    << names.density << "}}\n";
+  t << "interior{" << head.str() << "absorption " << per_unit * names.full_density << " " << names.density
+    << "}\n";
   for (int k = 0; k < 3; ++k) {
     glm::dvec3 e(0.0);
     e[k] = per_unit * names.full_emission * factor[k];
-    t << head.str() << "emission rgb" << e << " density{" << names.emission[k] << "}}\n";
+    t << head.str() << "emission rgb" << e << " " << names.emission[k] << "}\n";
   }
   t << "}";
   return t.str();
@@ -146,9 +146,9 @@ std::vector<MediaPiece> find_pieces(const MediaBlock& b, std::span<const float> 
 MediaNames declare_density(Text& scene, const SceneContext& c, const MediaBlock& b, MediaSamples& samples,
                            const std::string& name) {
   MediaNames names;
-  names.density = name + "D";
+  names.density = "density{" + name + "D}";
   names.full_density = quantile(samples.density, 0.995);  // the few most crowded voxels are opaque anyhow
-  declare(scene, c, b, samples.density, names.full_density, names.density);
+  declare(scene, c, b, samples.density, names.full_density, name + "D");
   return names;
 }
 
@@ -163,9 +163,79 @@ void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& b, M
   for (const auto& channel : samples.emission)
     names.full_emission = std::max(names.full_emission, quantile(channel, 0.999));
   for (int k = 0; k < 3; ++k) {
-    names.emission[k] = name + "RGB"[k];
-    declare(scene, c, b, samples.emission[std::size_t(k)], names.full_emission, names.emission[k]);
+    const std::string channel = name + "RGB"[k];
+    names.emission[k] = "density{" + channel + "}";
+    declare(scene, c, b, samples.emission[std::size_t(k)], names.full_emission, channel);
   }
+}
+
+namespace {
+
+/// Radiance of every sample that holds grass, and of those up to two samples away: means over their neighbours.
+std::array<std::vector<float>, 3> spread_radiance(const MediaBlock& b, const MediaSamples& samples) {
+  std::array<std::vector<float>, 3> out = samples.emission;
+  std::vector<char> known(b.samples(), 0);
+  std::vector<std::size_t> edge;
+  for (std::size_t s = 0; s < b.samples(); ++s) {
+    if (!(samples.density[s] > 0)) continue;
+    known[s] = 1;
+    edge.push_back(s);
+    for (auto& channel : out) channel[s] /= samples.density[s];
+  }
+  const std::ptrdiff_t step[6] = {1, -1, b.nx, -b.nx, std::ptrdiff_t(b.nx) * b.ny, -std::ptrdiff_t(b.nx) * b.ny};
+  // A sample's neighbour in one of the six directions, or none beyond the block.
+  const auto neighbour = [&](std::size_t s, int d) -> std::ptrdiff_t {
+    const int at[3] = {int(s % std::size_t(b.nx)), int(s / std::size_t(b.nx) % std::size_t(b.ny)),
+                       int(s / (std::size_t(b.nx) * b.ny))};
+    const int count[3] = {b.nx, b.ny, b.nz};
+    const bool beyond = d % 2 == 0 ? at[d / 2] + 1 >= count[d / 2] : at[d / 2] == 0;
+    return beyond ? -1 : std::ptrdiff_t(s) + step[d];
+  };
+  for (int ring = 0; ring < 4; ++ring) {  // four steps along the axes reach two samples along any diagonal's axes
+    std::vector<std::size_t> next;
+    for (const std::size_t s : edge)
+      for (int d = 0; d < 6; ++d)
+        if (const std::ptrdiff_t n = neighbour(s, d); n >= 0 && !known[std::size_t(n)]) {
+          known[std::size_t(n)] = 2;  // of the ring being made
+          next.push_back(std::size_t(n));
+        }
+    for (const std::size_t s : next) {
+      glm::dvec3 sum(0.0);
+      int count = 0;
+      for (int d = 0; d < 6; ++d)
+        if (const std::ptrdiff_t n = neighbour(s, d); n >= 0 && known[std::size_t(n)] == 1) {
+          for (int k = 0; k < 3; ++k) sum[k] += out[std::size_t(k)][std::size_t(n)];
+          ++count;
+        }
+      for (int k = 0; k < 3; ++k) out[std::size_t(k)][s] = float(sum[k] / count);
+    }
+    for (const std::size_t s : next) known[s] = 1;
+    edge = std::move(next);
+  }
+  return out;
+}
+
+}  // namespace
+
+MediaNames declare_sharp(Text& scene, const SceneContext& c, const MediaBlock& b, const MediaSamples& samples,
+                         const SharpEdge& edge, const std::string& name) {
+  MediaNames names;
+  names.full_density = quantile(samples.density, 0.995);
+  std::vector<float> density = samples.density;
+  const std::string opacity = name + "D";
+  declare(scene, c, b, density, names.full_density, opacity,
+          (Text() << "color_map{[" << edge.none << " rgb 0][" << edge.full << " rgb 1]} ").str());
+  names.density = "density{" + opacity + "}";
+  std::array<std::vector<float>, 3> radiance = spread_radiance(b, samples);
+  double full = 0;
+  for (const auto& channel : radiance) full = std::max(full, quantile(channel, 0.999));
+  names.full_emission = names.full_density * full;
+  for (int k = 0; k < 3; ++k) {
+    const std::string channel = name + "RGB"[k];
+    declare(scene, c, b, radiance[std::size_t(k)], full, channel);
+    names.emission[k] = names.density + "density{" + channel + "}";
+  }
+  return names;
 }
 
 std::string quality_text() {
@@ -174,7 +244,7 @@ std::string quality_text() {
 
 std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<const MediaPiece> pieces,
                        double overlap, const MediaNames& names, double depth_per_density,
-                       const glm::dvec3& factor, const std::string& transform, double height_scale) {
+                       const glm::dvec3& factor, const std::string& transform, double height_scale, double per_sample) {
   const double tile = c.input->tile_m, per_unit = depth_per_density / (b.spacing_m * c.unit);
   Text t;
   for (const MediaPiece& piece : pieces) {
@@ -185,7 +255,7 @@ std::string boxes_text(const SceneContext& c, const MediaBlock& b, std::span<con
     z.z = std::min(z.z, b.box_hi_m.z - over_m);
     if (!(a.x < z.x && a.y < z.y && a.z < z.z)) continue;
     t << "box{" << flip(a, c.unit) << "," << flip(z, c.unit) << " hollow no_shadow pigment{rgbt 1}\n"
-      << interior_text(names, per_unit, factor, piece.intervals) << transform << "}\n";
+      << interior_text(names, per_unit, factor, int(std::ceil(piece.intervals * per_sample))) << transform << "}\n";
   }
   return t.str();
 }

@@ -52,7 +52,7 @@ struct MediaPiece {
 std::vector<MediaPiece> find_pieces(const MediaBlock& block, std::span<const float> density,
                                     int piece_samples);
 
-/// Identifiers of declared densities and their values at full scale.
+/// Declared densities as POV-Ray takes them ("density{NAME}"; several multiply) and their values at full scale.
 struct MediaNames {
   std::string density, emission[3];
   double full_density = 1, full_emission = 1;
@@ -64,12 +64,24 @@ MediaNames declare_density(Text& scene, const SceneContext& c, const MediaBlock&
 void declare_emission(Text& scene, const SceneContext& c, const MediaBlock& block, MediaSamples& samples,
                       const std::string& name, MediaNames& names);
 
+/// For texels seen so close that a voxel is larger than a pixel: the kernel and the interpolation between voxels would
+/// show as blur. Opacity runs from none to full between two densities (shares of the full scale), so that an edge is
+/// as sharp as the interpolated density is smooth; radiance is kept apart and carried two voxels outward, so that the
+/// edge does not darken.
+struct SharpEdge {
+  double none = 0.13, full = 0.55;
+};
+MediaNames declare_sharp(Text& scene, const SceneContext& c, const MediaBlock& block, const MediaSamples& samples,
+                         const SharpEdge& edge, const std::string& name);
+
 /// #declares of the intervals' quality; before any boxes.
 std::string quality_text();
 /// The boxes of one texel. @param overlap tiles, see box_overlap; @param depth_per_density optical depth of a
-/// sample's spacing at density 1; @param factor on the emission; @param height_scale of the transform.
+/// sample's spacing at density 1; @param factor on the emission; @param height_scale of the transform;
+/// @param per_sample intervals for each sample along a box's longest side.
 std::string boxes_text(const SceneContext& c, const MediaBlock& block, std::span<const MediaPiece> pieces,
                        double overlap, const MediaNames& names, double depth_per_density,
-                       const glm::dvec3& factor, const std::string& transform, double height_scale = 1);
+                       const glm::dvec3& factor, const std::string& transform, double height_scale = 1,
+                       double per_sample = 1);
 
 }  // namespace witherfield::pov

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
+#include "pov/leaf_skin.hpp"
 #include "pov/object_text.hpp"
 #include "pov/png.hpp"
 #include "pov/scene_parts.hpp"
@@ -40,7 +42,14 @@ void check_object(const ObjectPlacement& o, const std::string& name) {
     check(l.softness, 0, 4, name + ": softness");
   };
   look(o.other_look);
-  for (const auto& [organ, l] : o.looks) look(l);
+  if (!o.surface->uv.empty()) return;
+  const SurfaceField* organ = o.surface->has_field("organ_id") ? &o.surface->field("organ_id") : nullptr;
+  for (std::size_t f = 0; f < o.surface->triangles.size(); ++f) {
+    const std::size_t item = organ && organ->on_faces ? f : std::size_t(o.surface->triangles[f][0]);
+    const ObjectLook& l = look_of(o, organ ? int(std::lround(organ->values[item])) : 0);
+    if (l.kind == LookKind::leaf && l.detail)
+      throw InvalidInput("object scene: " + name + ": detail of a leaf needs texture coordinates, the surface has none");
+  }
 }
 
 void check_input(const ObjectSceneInput& in) {
@@ -67,25 +76,59 @@ std::string picture(const std::filesystem::path& folder, const std::string& file
 }
 
 /// Meshes (one an organ) and pictures of one object, and the words that show it.
-std::string object_text(const std::filesystem::path& folder, const std::string& stem, std::size_t number,
-                        const ObjectPlacement& o, const LitMesh& m, const Glow& glow) {
-  const std::string id = std::to_string(number), front = "Front" + id, back = m.thin ? "Back" + id : front;
-  const FaceAtlas atlas(m.triangles, glow.front);
-  Text t;
-  t << picture(folder, stem + "_" + id + "_front.png", front, atlas.width(), atlas.height(), atlas.paint(glow.front),
-               atlas.scale());
-  if (m.thin)
-    t << picture(folder, stem + "_" + id + "_back.png", back, atlas.width(), atlas.height(), atlas.paint(glow.back),
-                 atlas.scale());
-  std::map<int, std::vector<int>> organs;
-  for (std::size_t f = 0; f < m.organ.size(); ++f) organs[m.organ[f]].push_back(int(f));
-  for (const auto& [organ, faces] : organs) {
-    const std::string file = stem + "_" + id + "_" + std::to_string(organ) + ".inc";
-    write_file(folder / file, mesh2_text(m, faces, atlas, kUnit));
-    t << "object{#include \"" << file << "\"\n" << look_text(look_of(o, organ), front, back) << "}\n";
+class ObjectText {
+ public:
+  ObjectText(const std::filesystem::path& folder, const std::string& stem, std::size_t number, const Studio& studio,
+             const View& view)
+      : folder_(folder), stem_(stem + "_" + std::to_string(number)), id_(std::to_string(number)), studio_(studio),
+        view_(view) {}
+
+  std::string write(const ObjectPlacement& o, const LitMesh& m, const Glow& glow) const {
+    std::map<int, std::vector<int>> organs;
+    for (std::size_t f = 0; f < m.organ.size(); ++f) organs[m.organ[f]].push_back(int(f));
+    Text t;
+    std::optional<FaceAtlas> atlas;  // shared by all organs without a skin of their own
+    for (const auto& [organ, faces] : organs) {
+      const ObjectLook& look = look_of(o, organ);
+      const std::string file = stem_ + "_" + std::to_string(organ) + ".inc";
+      if (look.kind == LookKind::leaf && look.detail && !o.facets) {
+        t << skin(o, m, faces, glow, organ, file);
+        continue;
+      }
+      const std::string front = "Front" + id_, back = m.thin ? "Back" + id_ : front;
+      if (!atlas) {
+        atlas.emplace(m.triangles, glow.front);
+        t << picture(folder_, stem_ + "_front.png", front, atlas->width(), atlas->height(), atlas->paint(glow.front),
+                     atlas->scale());
+        if (m.thin)
+          t << picture(folder_, stem_ + "_back.png", back, atlas->width(), atlas->height(), atlas->paint(glow.back),
+                       atlas->scale());
+      }
+      write_file(folder_ / file, mesh2_text(m, faces, *atlas, kUnit));
+      t << "object{#include \"" << file << "\"\n" << look_text(look, front, back) << "}\n";
+    }
+    return t.str();
   }
-  return t.str();
-}
+
+ private:
+  std::string skin(const ObjectPlacement& o, const LitMesh& m, std::span<const int> faces, const Glow& glow, int organ,
+                   const std::string& file) const {
+    SkinPictures painted = paint_skin(studio_, view_, m, faces, glow, look_of(o, organ), o.scale);
+    const std::string tail = id_ + "_" + std::to_string(organ), front = "SkinFront" + tail, back = "SkinBack" + tail,
+                      name = stem_ + "_" + std::to_string(organ);
+    Text t;
+    t << picture(folder_, name + "_front.png", front, painted.pixels, painted.pixels, std::move(painted.front), "")
+      << picture(folder_, name + "_back.png", back, painted.pixels, painted.pixels, std::move(painted.back), "");
+    write_file(folder_ / file, mesh2_text(m, faces, kUnit));
+    t << "object{#include \"" << file << "\"\n" << skin_text(front, back) << "}\n";
+    return t.str();
+  }
+
+  std::filesystem::path folder_;
+  std::string stem_, id_;
+  const Studio& studio_;
+  const View& view_;
+};
 
 std::string paper_text(const std::filesystem::path& folder, const std::string& stem, const Studio& s,
                        const std::vector<glm::vec3>& glow) {
@@ -132,7 +175,7 @@ std::filesystem::path write_object_scene(const std::filesystem::path& folder, co
     << "#default{finish{ambient 0 diffuse 0}}\n"
     << camera_text(in.still.camera, kUnit) << studio_text(studio, kUnit) << paper_text(folder, stem, studio, glow.paper);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    t << object_text(folder, stem, i, in.objects[i], meshes[i], glow.meshes[i]);
+    t << ObjectText(folder, stem, i, studio, view).write(in.objects[i], meshes[i], glow.meshes[i]);
     report(0.8 + 0.2 * double(i + 1) / double(meshes.size()));
   }
   const auto path = folder / (stem + ".pov");

@@ -3,6 +3,7 @@
 // softness of tissue that light enters.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 #include <span>
@@ -21,11 +22,20 @@ enum class LookKind {
   leaf,   ///< thin: front and back differ, light comes through
 };
 
+/// What of a leaf is finer than its mesh, over texture coordinates 0..1: pixels x pixels, rows from v = 0 upwards.
+struct LeafDetail {
+  int pixels = 0;
+  std::vector<float> vein;    ///< 0 blade .. 1 middle of a main vein (side veins about 0.65, net about 0.26)
+  std::vector<float> height;  ///< 0 at the veins .. 1 in the middle of the net's cells
+};
+
 struct ObjectLook {
   LookKind kind = LookKind::matte;
   double gloss = 1;     ///< factor on the kind's own sheen and mirror, 0..4
   double relief = 1;    ///< factor on the kind's own fine relief, 0..4; for leaves also the veins' height
   double softness = 1;  ///< factor on how far light wanders below the skin (waxy, grain), 0..4
+  std::function<LeafDetail(int pixels)> detail;      ///< leaf: veins; without it the field `vein` raises them
+  glm::vec3 vein_rgb{0.27f, 0.32f, 0.16f};           ///< leaf with detail: reflectance of the veins' tissue
 };
 
 /// One surface in the studio. world = position_m + scale * Rz(yaw) Ry(pitch) Rx(roll) * local.
@@ -79,7 +89,8 @@ Camera frame_objects(std::span<const ObjectPlacement> objects, double azimuth_de
                      double fov_deg, double aspect, double margin = 0.06);
 
 /// Moves the objects so that their boxes stand in a row along +x with `gap_m` between, their lowest points on
-/// z = 0 and the middles of their depth on y = 0.
-void stand_in_row(std::span<ObjectPlacement> objects, double gap_m);
+/// z = 0 (common_ground: the lowest of all; heights of one object over another are kept) and the middles of their
+/// depth on y = 0.
+void stand_in_row(std::span<ObjectPlacement> objects, double gap_m, bool common_ground = false);
 
 }  // namespace witherfield::pov

@@ -38,7 +38,11 @@ std::string studio_text(const Studio& s, double unit) {
   return t.str();
 }
 
-std::string mesh2_text(const LitMesh& m, std::span<const int> faces, const FaceAtlas& atlas, double unit) {
+namespace {
+
+/// `corner(face, k)` writes one texture coordinate.
+template <class Corner>
+std::string mesh_with(const LitMesh& m, std::span<const int> faces, double unit, const Corner& write_corner) {
   std::vector<int> number(m.vertices.size(), -1);
   Text points, normals, corners, indices, uv_indices;
   int vertices = 0, corner = 0;
@@ -51,11 +55,8 @@ std::string mesh2_text(const LitMesh& m, std::span<const int> faces, const FaceA
       points << "," << flip(glm::dvec3(m.vertices[std::size_t(v)].position_m), unit);
       normals << "," << flip(glm::dvec3(m.vertices[std::size_t(v)].normal));
     }
-    for (const int k : {0, 2, 1}) {
-      const glm::ivec2 uv = atlas.corner(std::size_t(f), k);
-      corners << ",<" << uv.x << "," << uv.y << ">";
-    }
-    indices << ",<" << number[std::size_t(t[0])] << "," << number[std::size_t(t[2])] << "," << number[std::size_t(t[1])] << ">";
+    for (const int k : {0, 1, 2}) write_corner(corners, std::size_t(f), k);
+    indices << ",<" << number[std::size_t(t[0])] << "," << number[std::size_t(t[1])] << "," << number[std::size_t(t[2])] << ">";
     uv_indices << ",<" << corner << "," << corner + 1 << "," << corner + 2 << ">";
     corner += 3;
   }
@@ -64,6 +65,27 @@ std::string mesh2_text(const LitMesh& m, std::span<const int> faces, const FaceA
       << "}\nuv_vectors{" << corner << corners.str() << "}\nface_indices{" << faces.size() << indices.str()
       << "}\nuv_indices{" << faces.size() << uv_indices.str() << "}}\n";
   return out.str();
+}
+
+}  // namespace
+
+std::string mesh2_text(const LitMesh& m, std::span<const int> faces, const FaceAtlas& atlas, double unit) {
+  return mesh_with(m, faces, unit, [&](Text& out, std::size_t face, int k) {
+    const glm::ivec2 uv = atlas.corner(face, k);
+    out << ",<" << uv.x << "," << uv.y << ">";
+  });
+}
+
+std::string mesh2_text(const LitMesh& m, std::span<const int> faces, double unit) {
+  return mesh_with(m, faces, unit, [&](Text& out, std::size_t face, int k) {
+    const glm::vec2 uv = m.vertices[std::size_t(m.triangles[face][std::size_t(k)])].uv;
+    out << ",<" << double(uv.x) << "," << double(uv.y) << ">";
+  });
+}
+
+std::string skin_text(const std::string& front, const std::string& back) {
+  const std::string glow = (Text() << "} finish{diffuse 0 emission " << kFullGlow << "}}\n").str();
+  return "texture{pigment{" + front + glow + "interior_texture{pigment{" + back + glow;
 }
 
 std::string look_text(const ObjectLook& look, const std::string& front, const std::string& back) {

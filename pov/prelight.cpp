@@ -145,19 +145,19 @@ std::vector<glm::dvec3> TexelPrelight::ground_points() const {
   return points;
 }
 
-double TexelPrelight::ground_sun(const glm::dvec3& to_sun) const {
+GroundShares TexelPrelight::ground(const glm::dvec3& to_sun) const {
   const OpticalDepth depth(block_, to_sun, per_density_);
   const auto points = ground_points();
-  double sum = 0;
-  for (const auto& p : points) sum += std::exp(-depth.at(p));
-  return sum / double(points.size());
-}
-
-double TexelPrelight::ground_sky() const {
-  const auto points = ground_points();
-  double sum = 0;
-  for (float v : sky_visibility(block_, per_density_, points, 0)) sum += v;
-  return sum / double(points.size());
+  const std::vector<float> seen = sky_visibility(block_, per_density_, points, 0);
+  GroundShares sum;
+  double weight = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double w = seen[i];
+    sum.sun += w * std::exp(-depth.at(points[i]));
+    sum.sky += w * w;
+    weight += w;
+  }
+  return weight > 0 ? GroundShares{sum.sun / weight, sum.sky / weight} : GroundShares{};
 }
 
 }  // namespace witherfield::pov

@@ -27,6 +27,11 @@ glm::dvec3 scattered_light(const Illumination& light, const glm::dvec3& mean_alb
 std::vector<float> sky_visibility(const DenseDensity& block, double per_density,
                                   std::span<const glm::dvec3> points_m, double offset_m);
 
+/// Shares of the sun's beam and of the sky that reach the ground.
+struct GroundShares {
+  double sun = 1, sky = 1;
+};
+
 /// The voxels of one texel that hold grass, with their sky visibility; shaded for any number of lights and
 /// eyes.
 class TexelPrelight {
@@ -45,9 +50,9 @@ class TexelPrelight {
   /// vectors outward.
   Shading shade(const Illumination& light, const glm::dvec3& eye_m) const;
 
-  /// Mean share of the sun's beam and of the sky on the ground of the tile.
-  double ground_sun(const glm::dvec3& to_sun) const;
-  double ground_sky() const;
+  /// Light on what is seen of the tile's ground from outside: a spot counts by its own share of the sky, because
+  /// gaps that let light down are the ones that let the eye in.
+  GroundShares ground(const glm::dvec3& to_sun) const;
 
   const DenseDensity& block() const { return block_; }
   double per_density() const { return per_density_; }

@@ -47,7 +47,7 @@ void raise_veins(LitMesh& m, const Surface& s, const ObjectPlacement& o) {
   for (std::size_t f = 0; f < m.triangles.size(); ++f) {
     const auto& t = m.triangles[f];
     const ObjectLook& look = look_of(o, m.organ[f]);
-    if (look.kind != LookKind::leaf) continue;
+    if (look.kind != LookKind::leaf || look.detail) continue;
     const std::size_t i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
     const glm::vec3 a = m.vertices[i].position_m, b = m.vertices[j].position_m, c = m.vertices[k].position_m;
     const glm::vec3 n = glm::cross(b - a, c - a);
@@ -84,7 +84,7 @@ void add_relief(LitMesh& m, const ObjectPlacement& o) {
       if (look.kind == LookKind::grain) {
         layer({0.45e-3f, 0.45e-3f, 6e-3f}, 0.16f);
         layer({1.3e-3f, 1.3e-3f, 4e-3f}, 0.08f);
-      } else if (look.kind == LookKind::leaf) {
+      } else if (look.kind == LookKind::leaf && !look.detail) {
         layer(glm::vec3(4.5e-3f), 0.10f);
         layer(glm::vec3(1.1e-3f), 0.07f);
       } else if (look.kind == LookKind::waxy) {

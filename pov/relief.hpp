@@ -4,7 +4,7 @@
 
 namespace witherfield::pov {
 
-/// Leaves with a field `vein`: raised by 0.25 mm x relief on the lower side, sunken on the upper one.
+/// Leaves with a field `vein` and no pictures of detail: raised by 0.25 mm x relief on the lower side, sunken on the upper one.
 /// @pre the mesh's vertices and faces are still those of the surface.
 void raise_veins(LitMesh& mesh, const Surface& surface, const ObjectPlacement& object);
 

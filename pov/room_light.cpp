@@ -10,9 +10,10 @@
 namespace witherfield::pov {
 namespace {
 
-const glm::dvec3 kSun{13.0, 11.6, 9.4};      // irradiance over pi of a surface that faces it
-const glm::dvec3 kSky{2.1, 2.5, 3.1};   // radiance; about a fifth of the sun, as on a clear day
-const glm::dvec3 kLamp{1.0, 0.86, 0.68};
+// A bright day with thin cloud: soft enough that neither the sun's patches nor the far corners are lost.
+const glm::dvec3 kSun{6.5, 5.8, 4.7};   // irradiance over pi of a surface that faces it
+const glm::dvec3 kSky{4.9, 5.4, 6.1};   // radiance
+const glm::dvec3 kLamp{1.0, 0.89, 0.75};
 
 std::string rgb(const glm::dvec3& c) { return (Text() << "rgb" << c).str(); }
 
@@ -45,8 +46,8 @@ std::string room_light_text(const RoomSceneInput& in, const std::vector<Wall>& w
     << glm::dvec3(mid.x, 0, mid.y) * unit << " area_light " << side * (0.0093 * far) << "," << up * (0.0093 * far)
     << ",3,3 adaptive 1 circular JITTER()}\n";
   t << "sphere{0," << 4 * far << " hollow no_shadow no_radiosity pigment{gradient y color_map{[0 " << rgb({0.30, 0.33, 0.20})
-    << "][0.497 " << rgb({0.45, 0.48, 0.32}) << "][0.503 " << rgb(kSky * glm::dvec3(1.35, 1.2, 1.05)) << "][0.75 "
-    << rgb(kSky) << "][1 " << rgb(kSky * 0.7) << "]} translate -0.5*y scale " << 8 * far
+    << "][0.497 " << rgb({0.45, 0.48, 0.32}) << "][0.503 " << rgb(kSky * glm::dvec3(0.72, 0.65, 0.57)) << "][0.75 "
+    << rgb(kSky * 0.55) << "][1 " << rgb(kSky * 0.4) << "]} translate -0.5*y scale " << 8 * far
     << "} finish{emission 1 diffuse 0 ambient 0}}\n";
   for (const Wall& w : walls)
     for (const WallOpening& o : w.openings) {

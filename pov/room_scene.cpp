@@ -78,7 +78,7 @@ std::string textures_text(const RoomSceneInput& in) {
     << "#declare Threshold=texture{pigment{rgb<0.16,0.10,0.06>} finish{diffuse 1 ambient Fill}}\n"
     << "#declare Steel=texture{pigment{rgb 0.10} finish{diffuse 0.8 ambient Fill specular 0.3 roughness 0.03}}\n"
     << "#declare Furniture=texture{pigment{wood turbulence 0.06 color_map{[0 rgb<0.30,0.185,0.095>][0.8 "
-       "rgb<0.235,0.135,0.065>][1 rgb<0.20,0.11,0.05>]} scale <4,4,4> rotate <2,86,0>} finish{diffuse 1 ambient Fill "
+       "rgb<0.235,0.135,0.065>][1 rgb<0.20,0.11,0.05>]} scale <11,11,11> rotate <2,86,0>} finish{diffuse 1 ambient Fill "
        "specular 0.12 roughness 0.03 reflection{0,0.25 fresnel on} conserve_energy}}\n";
   return t.str();
 }
@@ -88,8 +88,8 @@ std::string settings_text(bool film) {
   t << "#version 3.7;\n#ifndef(QUALITY) #declare QUALITY=1; #end\n#default{finish{ambient 0 diffuse 1}}\n"
     << "global_settings{assumed_gamma 1.0 max_trace_level 6";
   if (!film)
-    t << "\n  radiosity{pretrace_start 0.08 pretrace_end (QUALITY=0?0.04:0.02) count (QUALITY=0?40:(QUALITY=1?120:300)) "
-         "nearest_count 8 error_bound (QUALITY=2?0.4:0.6) recursion_limit (QUALITY=0?1:2) minimum_reuse 0.012 low_error_factor 0.6 "
+    t << "\n  radiosity{pretrace_start 0.08 pretrace_end (QUALITY=0?0.04:0.02) count (QUALITY=0?70:(QUALITY=1?120:300)) "
+         "nearest_count 14 error_bound (QUALITY=2?0.5:0.9) recursion_limit 2 minimum_reuse 0.03 low_error_factor 0.8 "
          "gray_threshold 0 brightness 1 normal off}";
   t << "}\n#macro JITTER() " << (film ? "" : "jitter ") << "#end\n";
   return t.str();

@@ -62,7 +62,7 @@ struct RoomSceneInput {
   std::vector<RoomObstacle> obstacles;
   std::vector<WallPicture> pictures;
   double haze = 0;    ///< dust in the air that shows the beams, 0 (none) .. 1
-  double lamps = 0.3; ///< soft light from the ceiling over the skylight at a window, 0..10: fills dark corners
+  double lamps = 0.9; ///< soft light from the ceiling, 0..10: fills dark corners
   bool film = false;  ///< no radiosity but fixed fill light: frames differ only where the floor does
 };
 

@@ -155,13 +155,14 @@ void append_ring(Text& t, const SceneContext& c) {
 
 std::string terrain_text(const SceneContext& c, const GroundLight& light, bool shadows) {
   const double tile = kUnitsPerTile, share = shadows ? 1.0 : light.sun;
-  // Black loam (ECOSTRESS library: sRGB 80, 61, 38) with litter of the grass itself on it.
+  // Thatch and litter of the grass itself cover most of the soil in a sward; the soil is black loam (ECOSTRESS library:
+  // sRGB 80, 61, 38).
   const glm::dvec3 soil{0.0802, 0.0467, 0.0194};
-  const glm::dvec3 floor = 0.55 * soil + 0.45 * light.litter_rgb;
+  const glm::dvec3 floor = 0.2 * soil + 0.8 * light.litter_rgb;
   const glm::dvec3 around = c.day->sky_rgb * light.sky + light.scattered_rgb;
   Text t;
-  t << "#declare Floor=texture{pigment{bozo scale " << 0.12 * tile << " color_map{[0 " << rgb(floor * 0.7)
-    << "][1 " << rgb(floor * 1.25) << "]}} finish{diffuse " << share << " emission " << rgb(around) << "}}\n"
+  t << "#declare Floor=texture{pigment{bozo scale " << 0.12 * tile << " color_map{[0 " << rgb(floor * 0.8)
+    << "][1 " << rgb(floor * 1.2) << "]}} finish{diffuse " << share << " emission " << rgb(around) << "}}\n"
     << "#declare Meadow=texture{pigment{bozo scale " << 1.7 * tile << " turbulence 0.6 color_map{[0 "
     << rgb(light.canopy_rgb * 0.78) << "][1 " << rgb(light.canopy_rgb * 1.12)
     << "]}} finish{diffuse 0 emission 1}}\n";

@@ -163,8 +163,8 @@ std::string head_and_light(const StairSceneInput& in, const std::string& stem) {
     t << " radiosity{pretrace_start 0.08 pretrace_end (QUALITY=0?0.04:0.02) count (QUALITY=0?40:(QUALITY=1?100:250)) nearest_count 8 error_bound 0.6 "
          "recursion_limit 2 minimum_reuse 0.012 low_error_factor 0.6 gray_threshold 0 brightness 1 normal off}";
   t << "}\n#declare Fill=rgb" << (in.film ? glm::dvec3(0.42, 0.46, 0.52) : glm::dvec3(0.0)) << ";\n"
-    << camera_text(in.still.camera, kUnit) << "sky_sphere{pigment{gradient y color_map{[0 rgb<1.1,1.2,1.3>][1 "
-    << "rgb<0.62,0.82,1.15>]}}}\nlight_source{" << toward * 1e5 << " rgb<4.4,3.9,3.2> parallel point_at 0 area_light "
+    << camera_text(in.still.camera, kUnit) << "sky_sphere{pigment{gradient y color_map{[0 rgb<1.7,1.75,1.8>][1 "
+    << "rgb<1.0,1.2,1.5>]}}}\nlight_source{" << toward * 1e5 << " rgb<5.2,4.6,3.8> parallel point_at 0 area_light "
     << side * 930.0 << "," << up * 930.0 << ",3,3 adaptive 1 circular" << (in.film ? "" : " jitter") << "}\n"
     << "#declare Coping=texture{pigment{granite color_map{[0 rgb" << in.wall_rgb * 0.75 << "][1 rgb" << in.wall_rgb * 1.1
     << "]} scale 14} normal{granite 0.12 scale 9} finish{diffuse 1 ambient Fill}}\n";

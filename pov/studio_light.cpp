@@ -25,6 +25,23 @@ glm::dvec2 r2_point(int i) {
   return {x - std::floor(x), y - std::floor(y)};
 }
 
+/// Points of a box in -1/2..1/2, the outermost ones and the middle first: where those are all free, or none, so are
+/// all. (With evenly spread ones first, a penumbra would begin with a jump.)
+std::vector<glm::dvec2> box_points() {
+  std::vector<glm::dvec2> rest, points;
+  for (int i = 0; i < kBoxPoints; ++i) rest.push_back(r2_point(i) - 0.5);
+  for (const glm::dvec2 target : {glm::dvec2(-0.5, -0.5), {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {0, 0}, {0, -0.5},
+                                  {0, 0.5}, {-0.5, 0}, {0.5, 0}}) {
+    const auto nearest = std::min_element(rest.begin(), rest.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
+      return glm::distance(a, target) < glm::distance(b, target);
+    });
+    points.push_back(*nearest);
+    rest.erase(nearest);
+  }
+  points.insert(points.end(), rest.begin(), rest.end());
+  return points;
+}
+
 /// Directions spread evenly over the sphere (spherical Fibonacci points).
 std::vector<glm::vec3> sphere_directions(int n) {
   std::vector<glm::vec3> d;
@@ -60,6 +77,13 @@ struct Place {
   glm::vec3 position, normal;
   float lift;  ///< rays start this far above the surface
   bool fine;   ///< seen
+  bool thin = false;  ///< of a leaf: how light depends on the normal is worked out, too
+};
+
+/// How irradiance over pi changes when the normal leans, and what comes from the boxes (SideLight).
+struct Lean {
+  glm::mat3 gradient{0.0f};
+  glm::vec2 boxes{0.0f};
 };
 
 /// Light of the room from evenly spread directions.
@@ -76,14 +100,13 @@ class Gatherer {
   Gatherer(const Studio& studio, const SceneTree& tree)
       : studio_(studio), tree_(tree.tree), faces_(tree.faces), fine_(studio, kDirections), coarse_(studio, kCoarseDirections) {
     for (const Softbox& b : studio.boxes)
-      for (int i = 0; i < kBoxPoints; ++i) {
-        const glm::dvec2 q = r2_point(i) - 0.5;
+      for (const glm::dvec2& q : box_points())
         box_points_.push_back(glm::vec3(b.center_m + q.x * b.side_a_m + q.y * b.side_b_m));
-      }
   }
 
   struct Gathered {
     std::vector<glm::vec3> first;    ///< irradiance over pi straight from boxes and room
+    std::vector<Lean> lean;          ///< of places on leaves; empty when there are none
     std::vector<std::size_t> start;  ///< where the hits of each place begin
     std::vector<int> hits;           ///< patch (face, then node of the paper) or -1, one a direction above the place
   };
@@ -95,9 +118,12 @@ class Gatherer {
     g.start.push_back(0);
     for (const Place& p : places) g.start.push_back(g.start.back() + count_above(p));
     g.hits.assign(g.start.back(), -1);
+    if (std::any_of(places.begin(), places.end(), [](const Place& p) { return p.thin; })) g.lean.resize(places.size());
     parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        g.first[i] = from_boxes(places[i]) + from_room(places[i], g.hits.data() + g.start[i]);
+      for (std::size_t i = begin; i < end; ++i) {
+        Lean* lean = places[i].thin ? &g.lean[i] : nullptr;
+        g.first[i] = from_boxes(places[i], lean) + from_room(places[i], g.hits.data() + g.start[i], lean);
+      }
     });
     return g;
   }
@@ -123,13 +149,22 @@ class Gatherer {
     return std::size_t(std::count_if(d.begin(), d.end(), [&](const glm::vec3& x) { return glm::dot(x, p.normal) > 0; }));
   }
 
-  glm::vec3 from_boxes(const Place& p) const {
+  glm::vec3 from_boxes(const Place& p, Lean* lean) const {
     const glm::vec3 start = p.position + p.lift * p.normal;
     glm::vec3 sum(0.0f);
     for (std::size_t b = 0; b < studio_.boxes.size(); ++b) {
       const Softbox& box = studio_.boxes[b];
       const float area = float(glm::length(box.side_a_m) * glm::length(box.side_b_m));
-      sum += glm::vec3(box.radiance) * (shining(p, start, b) * area / (kBoxPoints * std::numbers::pi_v<float>));
+      const glm::vec3 light =
+          glm::vec3(box.radiance) * (shining(p, start, b) * area / (kBoxPoints * std::numbers::pi_v<float>));
+      sum += light;
+      if (!lean) continue;
+      // As if all of a box's light came from its middle; where it grazes, a leaning normal would gain without bound.
+      constexpr float kGrazing = 0.15f;
+      const glm::vec3 d = glm::normalize(glm::vec3(box.center_m) - p.position);
+      const glm::vec3 facing = light / std::max(glm::dot(d, p.normal), kGrazing);
+      for (int c = 0; c < 3; ++c) lean->gradient[c] += facing[c] * d;
+      if (b < 2 && box.colour.y > 0) lean->boxes[int(b)] = facing.y / float(box.colour.y);
     }
     return sum;
   }
@@ -154,12 +189,13 @@ class Gatherer {
     return tried > 0 ? whole * free / tried : 0.0f;
   }
 
-  glm::vec3 from_room(const Place& p, int* hits) const {
+  glm::vec3 from_room(const Place& p, int* hits, Lean* lean) const {
     const glm::vec3 start = p.position + p.lift * p.normal;
     const bool paper = !studio_.paper.empty();
     const float far = float(100 * studio_.radius_m), level = paper ? float(studio_.paper.level_m()) : 0.0f;
     const Sky& room = sky(p);
     glm::vec3 sum(0.0f);
+    glm::mat3 gradient(0.0f);
     float all = 0;
     for (std::size_t k = 0; k < room.directions.size(); ++k) {
       const glm::vec3& d = room.directions[k];
@@ -174,8 +210,12 @@ class Gatherer {
         const int node = studio_.paper.nearest(start.x + reach * d.x, start.y + reach * d.y);
         if (node >= 0) hit = faces_ + node;
       }
-      if (hit < 0) sum += cosine * room.radiance[k];
+      if (hit >= 0) continue;
+      sum += cosine * room.radiance[k];
+      if (lean)
+        for (int c = 0; c < 3; ++c) gradient[c] += room.radiance[k][c] * d;
     }
+    if (lean && all > 0) lean->gradient += gradient / all;
     return all > 0 ? sum / all : sum;
   }
 
@@ -262,7 +302,7 @@ std::vector<Place> make_places(const Studio& studio, const View& view, const Sce
     Part part{places.size(), 0};
     const auto side = [&](float sign) {
       for (std::size_t v = 0; v < m.vertices.size(); ++v)
-        places.push_back({m.vertices[v].position_m, sign * m.vertices[v].normal, lift[v], m.vertices[v].seen});
+        places.push_back({m.vertices[v].position_m, sign * m.vertices[v].normal, lift[v], m.vertices[v].seen, m.thin});
     };
     side(1);
     part.back = places.size();
@@ -299,6 +339,17 @@ Glow reflect(const LitMesh& m, const Part& part, const std::vector<glm::vec3>& i
   return g;
 }
 
+SideLight side_light(std::size_t from, std::size_t count, const std::vector<glm::vec3>& irradiance,
+                     const std::vector<Lean>& lean) {
+  SideLight s;
+  for (std::size_t i = from; i < from + count; ++i) {
+    s.irradiance.push_back(irradiance[i]);
+    s.lean.push_back(lean[i].gradient);
+    s.boxes.push_back(lean[i].boxes);
+  }
+  return s;
+}
+
 /// Mean over the parts of every placed face.
 void add_patches(const LitMesh& m, const Glow& g, std::span<glm::vec3> radiance) {
   std::vector<float> area(radiance.size(), 0.0f);
@@ -312,6 +363,23 @@ void add_patches(const LitMesh& m, const Glow& g, std::span<glm::vec3> radiance)
   }
   for (std::size_t f = 0; f < area.size(); ++f)
     if (area[f] > 0) radiance[f] /= area[f];
+}
+
+/// A leaf's margin hangs far above the paper: where its shadow is wide, the few rays of a node that tell whether more
+/// are needed would show as steps. Binomial mean over seven nodes, along both sides.
+void soften(std::vector<glm::vec3>& node, int n) {
+  constexpr float kShare[7] = {1 / 64.0f, 6 / 64.0f, 15 / 64.0f, 20 / 64.0f, 15 / 64.0f, 6 / 64.0f, 1 / 64.0f};
+  for (const int step : {1, n}) {
+    const std::vector<glm::vec3> before = node;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const int at = step == 1 ? i : j;
+        glm::vec3 sum(0.0f);
+        for (int k = -3; k <= 3; ++k)
+          sum += kShare[k + 3] * before[std::size_t(j * n + i + (std::clamp(at + k, 0, n - 1) - at) * step)];
+        node[std::size_t(j * n + i)] = sum;
+      }
+  }
 }
 
 }  // namespace
@@ -340,7 +408,15 @@ StudioGlow light_studio(const Studio& studio, const View& view, const SceneTree&
         irradiance[i] = gathered.first[i] + gatherer.bounced(places[i], gathered.hits.data() + gathered.start[i], radiance);
     });
   }
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    if (!meshes[k].thin) continue;
+    const std::size_t n = meshes[k].vertices.size();
+    glow.meshes[k].above = side_light(parts[k].front, n, irradiance, gathered.lean);
+    glow.meshes[k].below = side_light(parts[k].back, n, irradiance, gathered.lean);
+  }
   glow.paper.assign(radiance.end() - std::ptrdiff_t(nodes), radiance.end());
+  if (std::any_of(meshes.begin(), meshes.end(), [](const LitMesh& m) { return m.thin; }))
+    soften(glow.paper, studio.paper.nodes());
   return glow;
 }
 

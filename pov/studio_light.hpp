@@ -4,6 +4,8 @@
 // All light that is not mirrored is worked out here, at points, by rays: so tissue can spread it below its skin, leaves
 // can let it through, it is free of noise, and POV-Ray needs no more than mirror images and sharp edges for its part.
 #pragma once
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -35,9 +37,20 @@ struct Studio {
 };
 Studio make_studio(const ObjectSceneInput& input);
 
+/// What falls on one side of a leaf, per vertex, so that detail finer than the mesh can be lit. Irradiances over pi.
+struct SideLight {
+  std::vector<glm::vec3> irradiance;  ///< all bounces, on the vertex's own normal
+  std::vector<glm::mat3> lean;        ///< column c: how the irradiance of colour c grows as the normal leans
+  std::vector<glm::vec2> boxes;       ///< key and rim light that arrive, facing them, over Softbox::colour: 1 = not shaded
+  glm::vec3 at(std::size_t vertex, const glm::vec3& leaned) const {
+    return irradiance[vertex] + leaned * lean[vertex];
+  }
+};
+
 /// Radiance that leaves every vertex toward any side (all is diffuse): above or outside, and below (leaves).
 struct Glow {
   std::vector<glm::vec3> front, back;
+  SideLight above, below;  ///< of leaves only
 };
 struct StudioGlow {
   std::vector<Glow> meshes;

@@ -68,9 +68,9 @@ class FieldWriter {
 
   void note_ground(const TexelPrelight& p, const TexelPrelight::Shading& s, double weight) {
     const Illumination sun{to_sun_, c_.day->sun_rgb, c_.day->sky_rgb};
-    const double sky = p.ground_sky();
-    ground_.add({p.ground_sun(to_sun_), sky, scattered_light(sun, p.mean_albedo(), sky),
-                 s.mean_sun + s.mean_rest, p.mean_diffuse()},
+    const GroundShares g = p.ground(to_sun_);
+    ground_.add({g.sun, g.sky, scattered_light(sun, p.mean_albedo(), g.sky), s.mean_sun + s.mean_rest,
+                 p.mean_diffuse()},
                 weight);
   }
 

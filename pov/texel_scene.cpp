@@ -6,6 +6,9 @@
 #include "sim/core/errors.hpp"
 
 namespace witherfield::pov {
+namespace {
+constexpr double kSharpIntervals = 2;  // a sharp edge must not fall between two samples of a ray
+}
 
 double mean_blade_width_m(const SceneInput& input, int variant) {
   const BladeRibbons* b = input.variants[std::size_t(variant)].blades;
@@ -49,13 +52,13 @@ std::filesystem::path write_texel_alone(const SceneContext& c, const Progress& p
   add_texel(samples, block, grid, light, shading.radiance, false);
   const std::vector<MediaPiece> pieces = find_pieces(block, samples.density, 20);
   Text declarations;
-  MediaNames names = declare_density(declarations, c, block, samples, "A");
-  declare_emission(declarations, c, block, samples, "A", names);
+  const MediaNames names = declare_sharp(declarations, c, block, samples, {}, "A");
   const Still& still = c.input->still;
   Text t;
   t << head_text({still.width_px, still.height_px, still.exposure, "texel", false, false}, c.stem)
     << atmosphere_text(c) << quality_text() << studio_text(c, light, true) << declarations.str()
-    << boxes_text(c, block, pieces, box_overlap(0, 0), names, light.per_density(), glm::dvec3(1.0), "");
+    << boxes_text(c, block, pieces, box_overlap(0, 0), names, light.per_density(), glm::dvec3(1.0), "", 1,
+                  kSharpIntervals);
   const auto path = c.folder / (c.stem + ".pov");
   write_file(path, t.str());
   return path;

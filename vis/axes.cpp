@@ -89,7 +89,7 @@ void add_scale(Overlay& overlay, const Layout& l, const Framing& f, const glm::d
 }  // namespace
 
 void add_axes(vtkRenderer& renderer, const Layout& l, const Framing& f, const std::array<double, 6>& b,
-              const std::string& length_unit) {
+              const std::string& length_unit, bool ground) {
   const std::string unit = length_unit.empty() ? "" : " (" + length_unit + ")";
   // The vertical faces toward the viewer.
   const glm::dvec3 eye = f.position - f.focal_point;
@@ -100,7 +100,7 @@ void add_axes(vtkRenderer& renderer, const Layout& l, const Framing& f, const st
   const glm::dvec3 left = f.project(one).x < f.project(two).x ? one : two;
   const glm::dvec3 left_top{left.x, left.y, b[5]};
 
-  if (eye.z > 0) add_ground(renderer, b);
+  if (ground && eye.z > 0) add_ground(renderer, b);
   add_segments(renderer,
                {{{b[0], b[2], b[4]}, {b[1], b[2], b[4]}},
                 {{b[1], b[2], b[4]}, {b[1], b[3], b[4]}},

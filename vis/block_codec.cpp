@@ -81,6 +81,48 @@ CompressedBytes compress_blocks(std::uint64_t total_bytes, std::uint64_t block_b
   return out;
 }
 
+CompressedBytes compress_sparse_blocks(std::uint64_t total_words, std::uint64_t block_words, Compression compression,
+                                       const SparseFill& fill) {
+  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+  if (compression != Compression::lz4)
+    return compress_blocks(total_words * kWord, block_words * kWord, compression,
+                           [&](std::size_t block, std::span<std::byte> out) {
+                             SparseWords words;
+                             fill(block, words);
+                             if (words.at.empty()) return false;
+                             std::memset(out.data(), 0, out.size());
+                             for (std::size_t i = 0; i < words.at.size(); ++i)
+                               std::memcpy(out.data() + words.at[i] * kWord, &words.value[i], kWord);
+                             return true;
+                           });
+  CompressedBytes out;
+  out.block_bytes = block_words * kWord;
+  const std::size_t count = static_cast<std::size_t>((total_words + block_words - 1) / block_words);
+  if (count == 0) return out;
+  const std::uint64_t last_words = total_words - (count - 1) * block_words;
+  out.last_bytes = last_words * kWord;
+  out.blocks.resize(count);
+  const auto encode = [](const SparseWords& words, std::uint64_t size, std::vector<char>& scratch) {
+    encode_sparse_lz4(words, size, scratch);
+    return std::make_shared<const std::vector<char>>(scratch);
+  };
+  std::vector<char> scratch;
+  const Block zero_block = encode({}, block_words, scratch), last_zero_block = encode({}, last_words, scratch);
+  parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+    thread_local SparseWords words;
+    thread_local std::vector<char> thread_scratch;
+    for (std::size_t b = begin; b < end; ++b) {
+      const bool last = b + 1 == count;
+      words.at.clear();
+      words.value.clear();
+      fill(b, words);
+      out.blocks[b] = words.at.empty() ? (last ? last_zero_block : zero_block)
+                                       : encode(words, last ? last_words : block_words, thread_scratch);
+    }
+  });
+  return out;
+}
+
 CompressedBytes compress_bytes(std::span<const std::byte> bytes, Compression compression) {
   constexpr std::uint64_t kBlock = 256 * 1024;
   return compress_blocks(bytes.size(), kBlock, compression, [&](std::size_t block, std::span<std::byte> out) {

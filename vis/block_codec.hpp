@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "vis/sparse_lz4.hpp"
 #include "vis/writers.hpp"
 
 namespace witherfield::vis {
@@ -34,6 +35,14 @@ using BlockFill = std::function<bool(std::size_t index, std::span<std::byte> out
 /// @pre block_bytes > 0. Same bytes for any thread count.
 CompressedBytes compress_blocks(std::uint64_t total_bytes, std::uint64_t block_bytes, Compression compression,
                                 const BlockFill& fill);
+
+/// Gives the words of block `index` that may be other than zero, ascending; `out` comes empty. Called from several
+/// threads at once.
+using SparseFill = std::function<void(std::size_t index, SparseWords& out)>;
+
+/// The same for an array of 32-bit words of which few are not zero: LZ4 never sees the zeros. @pre block_words > 0.
+CompressedBytes compress_sparse_blocks(std::uint64_t total_words, std::uint64_t block_words, Compression compression,
+                                       const SparseFill& fill);
 
 /// Bytes that lie in memory already.
 CompressedBytes compress_bytes(std::span<const std::byte> bytes, Compression compression);

@@ -68,7 +68,7 @@ ColourMap colour_map(std::string_view field, double lo, double hi) {
   if (field == "tissue") return {kTissue, 0, 2, {"air", "vein", "mesophyll"}, false};
   if (field == "blade_id" || field == "texel_id") return {kLabels, lo, hi, {}, true};
   if (field == "chlorophyll_ug_cm2") return {kGreens, lo, hi, {}, false};
-  if (field.starts_with("stress_") && lo < 0 && hi > 0) return {about_zero(lo, hi), lo, hi, {}, false};
+  if ((field.starts_with("stress_") || field == "strain_area") && lo < 0 && hi > 0) return {about_zero(lo, hi), lo, hi, {}, false};
   if (field.starts_with("stress_") || field.starts_with("strain_")) return {kInferno, lo, hi, {}, false};
   return {reversed(kViridis), lo, hi, {}, false};
 }

@@ -20,9 +20,9 @@ struct ColourMap {
   glm::dvec3 at(double value) const;
 };
 
-/// The map of a field over [lo, hi]: water viridis, dark = wet; chlorophyll greens; strain inferno; stress
-/// diverging about 0 where the range spans it, else inferno; tissue and blade_id categorical; others viridis,
-/// light = low.
+/// The map of a field over [lo, hi]: water viridis, dark = wet; chlorophyll greens; stress and
+/// areal strain diverging about 0 where the range spans it, else inferno; other strain inferno; tissue and
+/// blade_id categorical; others viridis, light = low.
 /// @pre lo < hi.
 ColourMap colour_map(std::string_view field, double lo, double hi);
 

@@ -32,10 +32,10 @@ void add_colour_bar(vtkRenderer& renderer, const Layout& layout, const ColourMap
 void add_legend_text(vtkRenderer& renderer, const Layout& layout, const std::string& text);
 /// Upper left corner of the data's renderer.
 void add_caption(vtkRenderer& renderer, const Layout& layout, const std::string& text);
-/// In the data's renderer: the ground rectangle of the box, a vertical edge, and ticks with numbers and names
+/// In the data's renderer: the ground rectangle of the box (filled if `ground`: flat data would lie in it), a vertical edge, and ticks with numbers and names
 /// on the edges toward the viewer.
 void add_axes(vtkRenderer& renderer, const Layout& layout, const Framing& framing,
-              const std::array<double, 6>& bounds, const std::string& length_unit);
+              const std::array<double, 6>& bounds, const std::string& length_unit, bool ground = true);
 
 /// "ug/cm2" -> "µg/cm²" and the like, for people's eyes.
 std::string typeset_unit(const std::string& unit);

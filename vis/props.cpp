@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
@@ -13,11 +14,13 @@
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
 #include <vtkPointGaussianMapper.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkSmartPointer.h>
+#include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
@@ -269,6 +272,46 @@ Prop surface_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density,
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   set_material(*actor);
+  return shared(actor);
+}
+
+Prop sheet_prop(vtkDataSet& image, vtkDataArray& field, bool of_cells, const Colouring& colouring) {
+  auto* source = vtkImageData::SafeDownCast(&image);
+  std::array<int, 3> size;
+  source->GetDimensions(size.data());
+  if (of_cells)
+    for (int& n : size) n = std::max(1, n - 1);
+  vtkNew<vtkImageData> texels;
+  texels->SetDimensions(size.data());
+  texels->GetPointData()->SetScalars(colours(field, colouring));
+  std::array<double, 6> b;
+  source->GetBounds(b.data());
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> place;
+  place->SetNumberOfComponents(2);
+  for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    points->InsertNextPoint(b[std::size_t(u)], b[std::size_t(2 + v)], b[4]);
+    place->InsertNextTuple2(u, v);
+  }
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType corners[] = {0, 1, 2, 3};
+  cells->InsertNextCell(4, corners);
+  vtkNew<vtkPolyData> quad;
+  quad->SetPoints(points);
+  quad->SetPolys(cells);
+  quad->GetPointData()->SetTCoords(place);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(quad);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(texels);
+  texture->SetColorModeToDirectScalars();
+  texture->SetWrap(vtkTexture::ClampToEdge);
+  texture->MipmapOn();
+  if (!colouring.is_label()) texture->InterpolateOn();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->SetTexture(texture);
+  actor->GetProperty()->LightingOff();
   return shared(actor);
 }
 

@@ -20,6 +20,9 @@ Prop volume_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density, 
 Prop surface_prop(vtkDataSet& image, vtkDataArray& field, vtkDataArray& density, double iso,
                   const Colouring& colouring);
 
+/// An image one cell or point thick, lying in its plane z, every cell in the colour of its value, unshaded.
+Prop sheet_prop(vtkDataSet& image, vtkDataArray& field, bool of_cells, const Colouring& colouring);
+
 /// Triangles, or spheres at the points of a file without any. `field` belongs to the points or to the cells.
 Prop poly_prop(vtkDataSet& poly, vtkDataArray& field, bool of_cells, double sphere_radius,
                const Colouring& colouring);

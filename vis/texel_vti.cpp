@@ -16,15 +16,15 @@ namespace witherfield::vis {
 namespace {
 
 constexpr int kEdge = TexelGrid::kEdge;
-// Small enough for a block to stay in the fast caches between gathering and compressing, and for many to be
-// empty; larger ones compress by a few percent better at most.
+// Small enough for many blocks to be empty, and for readers to keep one in their fast caches; larger ones compress by a
+// few percent better at most.
 constexpr std::uint64_t kBlockBytes = 256 * 1024;
 
 /// Where the voxels of a file go, block by block: the same for all of its arrays.
 class BlockPlan {
  public:
   struct Voxel {
-    std::uint32_t at;   ///< place in the block, in voxels
+    std::uint32_t at;   ///< place in the block, in voxels; ascending
     std::int32_t code;  ///< BleedMap's
   };
 
@@ -68,18 +68,17 @@ class BlockPlan {
                   std::uint64_t start, std::vector<Voxel>& out) const {
     const BleedMap::Layer& layer = map.layer(k / kEdge);
     const int slice = (k % kEdge) * kEdge * kEdge;  // first bit of the plane in a brick's mask
-    for (int by = j_begin / kEdge; by <= (j_end - 1) / kEdge; ++by)
-      for (const BleedMap::Brick& b : layer.row(by)) {
-        const std::int32_t* code =
-            layer.codes.data() + b.first + std::popcount(b.mask & ((1ull << slice) - 1));
-        for (unsigned bits = (b.mask >> slice) & 0xFFFFu; bits; bits &= bits - 1, ++code) {
-          const int v = std::countr_zero(bits), j = by * kEdge + v / kEdge, i = b.x * kEdge + v % kEdge;
-          if (j < j_begin || j >= j_end || i < box.lo.x || i >= box.hi.x) continue;
-          const auto at =
-              start + std::uint64_t(j - j_begin) * std::uint64_t(size_.x) + std::uint64_t(i - box.lo.x);
-          out.push_back({static_cast<std::uint32_t>(at), *code});
+    for (int j = j_begin; j < j_end; ++j, start += std::uint64_t(size_.x)) {
+      const int row = slice + (j % kEdge) * kEdge;  // first bit of the row
+      for (const BleedMap::Brick& b : layer.row(j / kEdge)) {
+        const std::int32_t* code = layer.codes.data() + b.first + std::popcount(b.mask & ((1ull << row) - 1));
+        for (unsigned bits = (b.mask >> row) & 0xFu; bits; bits &= bits - 1, ++code) {
+          const int i = b.x * kEdge + std::countr_zero(bits);
+          if (i < box.lo.x || i >= box.hi.x) continue;
+          out.push_back({static_cast<std::uint32_t>(start + std::uint64_t(i - box.lo.x)), *code});
         }
       }
+    }
   }
 
   const glm::ivec3 size_;
@@ -100,22 +99,24 @@ ValueRange range_of(Values values) {
 XmlArray texel_array(const BlockPlan& plan, const TexelField& field, Values values, Compression compression) {
   const std::size_t components = values.size();
   const bool bled = field.first != TexelChannel::density;
-  const auto fill = [&](std::size_t block, std::span<std::byte> bytes) {
+  const auto fill = [&](std::size_t block, SparseWords& out) {
     const std::vector<BlockPlan::Voxel>& places = plan.block(block);
-    if (places.empty()) return false;
-    float* out = reinterpret_cast<float*>(bytes.data());
-    std::fill_n(out, bytes.size() / sizeof(float), 0.0f);
+    out.at.resize(places.size() * components);
+    out.value.resize(out.at.size());
+    std::size_t n = 0;
     for (const BlockPlan::Voxel& v : places) {
       if (!bled && !BleedMap::is_filled(v.code)) continue;
       const std::size_t number = static_cast<std::size_t>(BleedMap::number(v.code));
-      for (std::size_t c = 0; c < components; ++c) out[v.at * components + c] = values[c][number];
+      for (std::size_t c = 0; c < components; ++c, ++n) {
+        out.at[n] = static_cast<std::uint32_t>(v.at * components + c);
+        out.value[n] = std::bit_cast<std::uint32_t>(values[c][number]);
+      }
     }
-    return true;
+    out.at.resize(n);
+    out.value.resize(n);
   };
-  const std::uint64_t voxel_bytes = components * sizeof(float);
-  return {
-      std::string(field.name), "Float32", field.components,
-      compress_blocks(plan.voxels() * voxel_bytes, plan.voxels_per_block() * voxel_bytes, compression, fill)};
+  return {std::string(field.name), "Float32", field.components,
+          compress_sparse_blocks(plan.voxels() * components, plan.voxels_per_block() * components, compression, fill)};
 }
 
 void check_box(const VoxelBox& box, const GridShape& shape) {

@@ -47,6 +47,7 @@ void check(const VolumeOptions& o) {
 struct Source {
   Dataset dataset;
   bool image = false, of_cells = false;
+  bool flat = false;  ///< an image one layer thick: a floor
   vtkDataArray *field = nullptr, *density = nullptr;  // density: of images only
 };
 
@@ -58,20 +59,23 @@ Source load(const std::filesystem::path& input, const VolumeOptions& options) {
   Source s;
   s.image = names.image;
   s.of_cells = !has(names.point_arrays, options.field);
-  if (s.of_cells && !(has(names.cell_arrays, options.field) && !names.image)) {
+  s.flat = names.image && !has(names.point_arrays, "density");
+  if (s.of_cells && !(has(names.cell_arrays, options.field) && (s.flat || !names.image))) {
     std::vector<std::string> known = names.point_arrays;
-    if (!names.image) known.insert(known.end(), names.cell_arrays.begin(), names.cell_arrays.end());
+    if (s.flat || !names.image) known.insert(known.end(), names.cell_arrays.begin(), names.cell_arrays.end());
     throw InvalidInput(fmt::format("'{}' has no field '{}'; it has: {}", input.string(), options.field,
                                    fmt::join(known, ", ")));
   }
-  if (names.image && !has(names.point_arrays, "density"))
-    throw InvalidInput(fmt::format("'{}' has no density, which gives a volume its shape", input.string()));
   s.dataset = read_dataset(input, {options.field, "density", "radius_m"});
   vtkDataSet& data = *s.dataset.data;
+  std::array<double, 6> bounds;
+  data.GetBounds(bounds.data());
+  if (s.flat && bounds[4] != bounds[5])
+    throw InvalidInput(fmt::format("'{}' has no density, which gives a volume its shape", input.string()));
   s.field = (s.of_cells ? static_cast<vtkDataSetAttributes*>(data.GetCellData()) : data.GetPointData())
                 ->GetArray(options.field.c_str());
-  if (s.image) s.density = data.GetPointData()->GetArray("density");
-  if (!s.field || (s.image && !s.density) || data.GetNumberOfPoints() == 0)
+  if (s.image && !s.flat) s.density = data.GetPointData()->GetArray("density");
+  if (!s.field || (s.image && !s.flat && !s.density) || data.GetNumberOfPoints() == 0)
     throw InvalidInput(fmt::format("'{}' holds no points", input.string()));
   return s;
 }
@@ -94,6 +98,7 @@ Prop make_prop(const Source& s, const Colouring& colouring, const VolumeOptions&
                const glm::dvec3& to_light) {
   vtkDataSet& data = *s.dataset.data;
   if (!s.image) return poly_prop(data, *s.field, s.of_cells, sphere_radius(s.dataset), colouring);
+  if (s.flat) return sheet_prop(data, *s.field, s.of_cells, colouring);
   if (options.surface) return surface_prop(data, *s.field, *s.density, options.iso_density, colouring);
   return volume_prop(data, *s.field, *s.density, colouring, to_light);
 }
@@ -185,7 +190,7 @@ void render_volume(const std::filesystem::path& input, const std::filesystem::pa
   const vtkSmartPointer<vtkRenderer> data = part_of(*window.get(), 0, split),
                                      legend = part_of(*window.get(), split, 1);
   data->AddViewProp(prop.get());
-  add_axes(*data, layout, framing, bounds, source.dataset.length_unit);
+  add_axes(*data, layout, framing, bounds, source.dataset.length_unit, !source.flat);
   if (const std::string text = caption(source.dataset); !text.empty()) add_caption(*data, layout, text);
   add_legend(*legend, layout, colouring);
   set_lights(*data);

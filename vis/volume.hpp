@@ -19,7 +19,8 @@ struct VolumeOptions {
       range;  ///< colour scale; default: run.json's global range beside the file, else the file's own
 };
 
-/// Renders one .vti or .vtp (points as balls, triangles as they are) to a PNG. Densities are drawn as the
+/// Renders one .vti or .vtp to a PNG: points as balls, triangles as they are, an image of one layer (a floor) as a flat
+/// sheet, any other image by its density. Densities are drawn as the
 /// cubic B-spline of the voxels' values, because a blade is thinner than a voxel; attributes are means over
 /// the grass nearby, labels its nearest. Needs no display: EGL surfaceless context, else an X display.
 /// @throws IoFailure when the file cannot be read or no rendering context can be made (says what to install

@@ -46,6 +46,14 @@ constexpr std::array kFields{
     FieldSpec{"gloss", "1", 1, 0, 1, "Gloss"},
     FieldSpec{"dirt", "1", 1, 0, 1, "Dirt"},
     FieldSpec{"height_m", "m", 1, -100, 100, "Height"},
+    FieldSpec{"person", "1", 1, 0, 4.3e9, "Visit"},
+    FieldSpec{"behaviour", "1", 1, 0, 2, "Behaviour (0 patrol, 1 round trip, 2 pass)"},
+    FieldSpec{"phase", "1", 1, 0, 3, "Phase (0 out, 1 round, 2 stand, 3 back)"},
+    FieldSpec{"foot", "1", 1, 0, 1, "Foot (0 left, 1 right)"},
+    FieldSpec{"kind", "1", 1, 0, 7, "Sole (0 man, 1 woman, 2 man sliding, 3 woman sliding)"},
+    FieldSpec{"heading_rad", "rad", 1, -3.15, 3.15, "Heading"},
+    FieldSpec{"weight_N", "N", 1, 0, 1e4, "Weight"},
+    FieldSpec{"time_s", "s", 1, 0, 1e12, "Time"},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

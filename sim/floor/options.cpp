@@ -35,7 +35,7 @@ void validate(const CrowdOptions& c) {
                                     {"crowd.pass_share", c.pass_share}})
     require(name, share, 0, 1e6);
   if (!(c.patrol_share + c.round_trip_share + c.pass_share > 0))
-    throw InvalidInput("crowd: patrol_share, round_trip_share and pass_share are all 0");
+    throw InvalidInput("crowd.patrol_share: patrol_share, round_trip_share and pass_share are all 0");
   require("crowd.clockwise_share", c.clockwise_share, 0, 1);
   require("crowd.women_share", c.women_share, 0, 1);
   require("crowd.speed_men_m_s", c.speed_men_m_s, 0.1, 5, "m/s");
@@ -74,10 +74,10 @@ void validate(const GaitOptions& g) {
 }
 
 void validate(const MaterialOptions& m) {
-  if (m.layers.empty()) throw InvalidInput("material.layers: at least one layer is needed");
+  if (m.layers.empty()) throw InvalidInput("material.layer: at least one layer is needed");
   for (std::size_t n = 0; n < m.layers.size(); ++n) {
     const Layer& l = m.layers[n];
-    const std::string at = "material.layers[" + std::to_string(n) + "] '" + l.name + "'.";
+    const std::string at = "material.layer[" + std::to_string(n) + "] '" + l.name + "'.";
     if (n + 1 < m.layers.size()) require(at + "thickness_um", l.thickness_um, 0.01, 1e6, "um");
     require(at + "hardness_Pa", l.hardness_Pa, 1e5, 1e11, "Pa");
     require(at + "wear_coefficient", l.wear_coefficient, 0, 0.1);
@@ -95,10 +95,10 @@ void validate(const MaterialOptions& m) {
   require("material.finish_sd", m.finish_sd, 0, 0.5);
   require("material.joint_depth_m", m.joint_depth_m, 0, 0.1, "m");
   require("material.piece_level_sd_m", m.piece_level_sd_m, 0, 0.02, "m");
-  require("material.pattern.length_m", m.pattern.length_m, 0.02, 20, "m");
-  require("material.pattern.width_m", m.pattern.width_m, 0.02, 20, "m");
-  require("material.pattern.joint_m", m.pattern.joint_m, 0, 0.1, "m");
-  require("material.pattern.turn_deg", m.pattern.turn_deg, -360, 360, "deg");
+  require("material.piece_length_m", m.pattern.length_m, 0.02, 20, "m");
+  require("material.piece_width_m", m.pattern.width_m, 0.02, 20, "m");
+  require("material.joint_m", m.pattern.joint_m, 0, 0.1, "m");
+  require("material.turn_deg", m.pattern.turn_deg, -360, 360, "deg");
 }
 
 void validate(const StairOptions& s, const GaitOptions& gait) {
@@ -168,10 +168,10 @@ void validate(const FloorOptions& o) {
   if (const double cells = extent_m.x * extent_m.y * o.footprints.pixels_per_m * o.footprints.pixels_per_m; cells > 4e8)
     throw InvalidInput("footprints.pixels_per_m = " + std::to_string(o.footprints.pixels_per_m) + ": the floor would have " +
                        std::to_string(cells / 1e6) + " million cells; at most 400");
-  if (o.frames.empty()) throw InvalidInput("frames: at least one key frame is needed");
+  if (o.frames.empty()) throw InvalidInput("wear.frames: at least one key frame is needed");
   for (std::size_t n = 0; n < o.frames.size(); ++n) {
-    require("frames[" + std::to_string(n) + "]", o.frames[n], 0, 1);
-    if (n > 0 && o.frames[n] <= o.frames[n - 1]) throw InvalidInput("frames: key frames must ascend");
+    require("wear.frames[" + std::to_string(n) + "]", o.frames[n], 0, 1);
+    if (n > 0 && o.frames[n] <= o.frames[n - 1]) throw InvalidInput("wear.frames: key frames must ascend");
   }
 }
 

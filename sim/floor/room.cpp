@@ -74,11 +74,11 @@ void check_span(const std::string& what, double from, double until) {
 }
 
 void check_doors(const RoomOptions& room, const Polygon& outline, const GaitOptions& gait) {
-  if (room.doors.empty()) throw InvalidInput("room.doors: at least one door is needed");
+  if (room.doors.empty()) throw InvalidInput("room.door: at least one door is needed");
   double shares = 0;
   for (std::size_t n = 0; n < room.doors.size(); ++n) {
     const Door& d = room.doors[n];
-    const std::string what = "room.doors[" + std::to_string(n) + "] '" + d.name + "'";
+    const std::string what = "room.door[" + std::to_string(n) + "] '" + d.name + "'";
     if (wall_of(outline, d) < 0)
       throw InvalidInput(what + ": from " + text(d.a_m) + " to " + text(d.b_m) +
                          " does not lie on one edge of the outline (within 0.02 m)");
@@ -90,7 +90,7 @@ void check_doors(const RoomOptions& room, const Polygon& outline, const GaitOpti
       throw InvalidInput(what + ": share = " + std::to_string(d.share) + " must be >= 0");
     shares += d.share;
   }
-  if (!(shares > 0)) throw InvalidInput("room.doors: the shares of all doors are 0");
+  if (!(shares > 0)) throw InvalidInput("room.door: the shares of all doors are 0");
 }
 
 void check_place(const RoomOptions& room, const Polygon& outline, const Place& p, const std::string& what,
@@ -231,7 +231,7 @@ void validate_room(const RoomOptions& room, const GaitOptions& gait, double days
   check_doors(room, outline, gait);
   for (std::size_t n = 0; n < room.obstacles.size(); ++n) {
     const Obstacle& o = room.obstacles[n];
-    const std::string what = "room.obstacles[" + std::to_string(n) + "] '" + o.name + "'";
+    const std::string what = "room.obstacle[" + std::to_string(n) + "] '" + o.name + "'";
     check_simple(o.outline_m, what);
     check_span(what, o.from_day, o.until_day);
     if (std::none_of(o.outline_m.begin(), o.outline_m.end(), [&](glm::dvec2 p) {
@@ -241,10 +241,10 @@ void validate_room(const RoomOptions& room, const GaitOptions& gait, double days
   }
   for (std::size_t n = 0; n < room.places.size(); ++n)
     check_place(room, outline, room.places[n],
-                "room.places[" + std::to_string(n) + "] '" + room.places[n].name + "'", gait);
+                "room.place[" + std::to_string(n) + "] '" + room.places[n].name + "'", gait);
   for (std::size_t n = 0; n < room.pictures.size(); ++n)
     if (const glm::dvec2 p = room.pictures[n].at_m; !contains(outline, p) && distance_m(outline, p) > 0.05)
-      throw InvalidInput("room.pictures[" + std::to_string(n) + "] '" + room.pictures[n].name + "': " + text(p) +
+      throw InvalidInput("room.picture[" + std::to_string(n) + "] '" + room.pictures[n].name + "': " + text(p) +
                          " is outside the room");
   if (room.obstacles.size() + room.places.size() > 10000 || changes_of_plan(room, days).size() > 200)
     throw InvalidInput("room: more than 10000 obstacles and places, or the plan changes on more than 200 days");

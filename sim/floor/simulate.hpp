@@ -65,11 +65,23 @@ WalkReport walk(const FloorOptions& options, const Stretch& stretch, const Footp
 /// What a retune had to do.
 struct RetuneReport {
   std::int64_t kept = 0, walked = 0, dropped = 0;  ///< visits
+  std::int64_t footprints = 0;                     ///< of both
+  WalkReport walk;                                 ///< of those walked
+};
+/// Footprints of an earlier walk.
+struct KeptWalk {
+  const FloorOptions* options = nullptr;  ///< by which they were walked
+  Stretch visits;                         ///< of which they are
+  FootprintSource footprints;
 };
 /// The footprints of `after`, given those of `before` (all its visits): visits that go the same way in both are copied, the others are walked.
 /// The result is, bit for bit, what walk(after) gives. Dropping people, changing a share, moving a desk for a time all
 /// leave the visits alone that they do not concern. @throws InvalidInput.
 RetuneReport retune(const FloorOptions& before, const FootprintSource& footprints, const FloorOptions& after,
+                    const FootprintSink& sink, const Progress& progress = {});
+/// The same for the visits of a stretch, out of several walks that may hold different stretches (of one scene or of
+/// several); a visit that more than one holds is taken from the first of them.
+RetuneReport retune(std::span<const KeptWalk> kept, const FloorOptions& after, const Stretch& visits,
                     const FootprintSink& sink, const Progress& progress = {});
 
 /// The additive channels of a floor (or of every tread): footfalls, dose_N_s_m2, slide_m, and two that the look needs.

@@ -54,12 +54,12 @@ World::World(const FloorOptions& options, double from_day, double until_day)
       grid_(plan_, options.gait.clearance_m),
       to_place_(options.room.places.size()) {
   const std::string when = from_day > 0 ? " from day " + std::to_string(from_day) + " on" : "";
-  if (grid_.free_cells() == 0) throw InvalidInput("room: no ground is wide enough for a walker" + when);
+  if (grid_.free_cells() == 0) throw InvalidInput("room.outline_m: no ground is wide enough for a walker" + when);
   const FieldSolver solver(grid_, options.gait.reach_m);
   std::vector<char> connected;
   for (std::size_t g = 0; g < plan_.gates().size(); ++g) {
     const std::vector<std::size_t> cells = sill(grid_, plan_.gates()[g]);
-    const std::string what = "room.doors[" + std::to_string(g) + "] '" + options.room.doors[g].name + "'";
+    const std::string what = "room.door[" + std::to_string(g) + "] '" + options.room.doors[g].name + "'";
     if (cells.empty()) throw InvalidInput(what + " is blocked" + when);
     if (connected.empty()) connected = grid_.reachable(cells.front());
     const std::ptrdiff_t inside = grid_.nearest_free(
@@ -75,7 +75,7 @@ World::World(const FloorOptions& options, double from_day, double until_day)
     if (!there(place, from_day)) continue;
     const std::ptrdiff_t cell = grid_.nearest_free(place.at_m, 3 * grid_.shape().spacing_m);
     if (cell < 0 || !connected[std::size_t(cell)])
-      throw InvalidInput("room.places[" + std::to_string(p) + "] '" + place.name +
+      throw InvalidInput("room.place[" + std::to_string(p) + "] '" + place.name +
                          "' cannot be reached from the doors" + when);
     to_place_[p] = solver.towards({std::size_t(cell)});
   }

@@ -163,6 +163,9 @@ void validate(const FruitOptions& o) {
   }
   if (o.crop == "mesh" && !has_mesh)
     throw InvalidInput("crop = \"mesh\" needs a control mesh with at least one triangle");
+  if (!o.mesh_uv.empty() && o.mesh_uv.size() != o.mesh.position_m.size())
+    throw InvalidInput("mesh_uv has " + std::to_string(o.mesh_uv.size()) + " values for " +
+                       std::to_string(o.mesh.position_m.size()) + " vertices of the control mesh");
   require("mesh_crease_angle_deg", o.mesh_crease_angle_deg, 0, 180, "deg");
   validate(o.ripening);
   if (o.frames.empty()) throw InvalidInput("frames: at least one key frame is needed");

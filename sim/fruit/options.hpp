@@ -2,6 +2,7 @@
 // The scene file (sim/scene) fills these; `validate` is called once, by the simulator.
 #pragma once
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,7 +17,7 @@ namespace witherfield::fruit {
 struct WheatOptions {
   int spikelets = 20;             ///< alternately in the front and the back row, 2..60 (17..24 in the field)
   int kernels_per_spikelet = 5;   ///< in the order 0, 1, 3, 2, 4 from the middle outwards, 1..5
-  double ear_length_mm = 88;      ///< of the stepped part of the shank, 20..300; 0.3..40 mm per spikelet
+  double ear_length_mm = 78;      ///< of the stepped part of the shank, 20..300; 0.3..40 mm per spikelet
   double stem_length_mm = 22;     ///< of the cylinder below the ear, 1..300
   double stem_radius_mm = 1.1;    ///< 0.2..5
   double kernel_length_mm = 6.2;  ///< 2..15
@@ -107,6 +108,7 @@ struct FruitOptions {
   MaizeOptions maize;
   PlantedOptions planted;
   ControlMesh mesh;  ///< crop = mesh: the fruit; crop = planted: the body, when not empty. Metres
+  std::vector<glm::dvec2> mesh_uv;   ///< of its vertices, subdivided with them; empty = by place
   double mesh_crease_angle_deg = 0;  ///< edges of `mesh` sharper than this become creases, 0 = none, 0..180
   RipeningOptions ripening;
   std::vector<double> frames{0.0, 0.35, 0.6, 1.0};  ///< wd, ascending, 0..1

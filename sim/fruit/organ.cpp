@@ -29,7 +29,10 @@ glm::vec3 coat_colour(const Coat& coat, const Paint& p) {
   // Two slow waves over the organ, with the organ's own phase.
   const float wave = std::sin(3.1f * p.x + 5.3f * p.y + coat.mottle_phase) *
                      std::cos(7.9f * p.y - 2.3f * p.x + 1.7f * coat.mottle_phase);
-  return glm::clamp(c * (1.0f + coat.mottle * wave), 0.0f, 1.0f);
+  // At -90, -45, 0, 45, 90 degrees round the organ.
+  const float nerve =
+      std::cos(8.0f * std::asin(std::clamp(p.x, -1.0f, 1.0f))) * std::min(1.0f, 6.0f * (1.0f - 0.5f * y));
+  return glm::clamp(c * (1.0f + coat.mottle * wave + coat.nerves * nerve), 0.0f, 1.0f);
 }
 
 void accumulate_normals(std::span<const glm::dvec3> position, std::span<const std::array<int, 3>> faces,
@@ -52,7 +55,7 @@ void accumulate_normals(std::span<const glm::dvec3> position, std::span<const st
 
 const char* organ_name(OrganKind kind) {
   constexpr const char* names[] = {"stem",     "wedge", "kernel", "glume", "lemma", "awn", "cob",
-                                   "cob bump", "shank", "body",   "sepal", "style", "mesh"};
+                                   "cob_bump", "shank", "body",   "sepal", "style", "mesh"};
   return names[int(kind)];
 }
 

@@ -28,7 +28,7 @@ enum class OrganKind : int {
   style,
   user_mesh
 };
-const char* organ_name(OrganKind kind);
+const char* organ_name(OrganKind kind);  ///< as scene files write it
 
 /// Where a vertex lies on its organ, for colour and texture; rides through the subdivision like a position.
 /// x across -1..1, y along 0 (root) .. 1 (tip), z free for the organ (depth of a kernel's groove, crown).
@@ -46,6 +46,7 @@ struct Coat {
   glm::vec3 mark{};                  ///< where paint.z is 1 (groove, crown, rim)
   float mottle = 0.0f;               ///< relative variation of brightness over the organ, 0..0.5
   float mottle_phase = 0.0f;
+  float nerves = 0.0f;  ///< how much five lengthwise nerves stand out from what is between them, 0..0.5
   float water = 1.0f, moisture_wb = 0.0f;
 };
 

@@ -36,8 +36,11 @@ ShapeMesh body_of_revolution(const std::vector<std::pair<double, double>>& profi
   return close_rings(stack);
 }
 
-ShapeMesh with_paint(ControlMesh mesh) {
+/// The user's mesh: painted by its own uv, or by place when it has none.
+ShapeMesh with_paint(ControlMesh mesh, const std::vector<glm::dvec2>& uv) {
   ShapeMesh shape{std::move(mesh), {}};
+  for (const glm::dvec2& c : uv) shape.paint.push_back({float(2 * c.x - 1), float(c.y), 0.0f});
+  if (!uv.empty()) return shape;
   glm::dvec3 lo = shape.mesh.position_m.front(), hi = lo;
   for (const glm::dvec3& p : shape.mesh.position_m) {
     lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
@@ -91,7 +94,7 @@ PlantedFruit::PlantedFruit(const FruitOptions& options)
     body_control_mm_ = control_of(body_);
   } else {
     if (options.mesh_crease_angle_deg > 0) add_creases_by_angle(mesh, options.mesh_crease_angle_deg);
-    body_ = add_shape(with_paint(std::move(mesh)), false);
+    body_ = add_shape(with_paint(std::move(mesh), options.mesh_uv), false);
     body_control_mm_ = control_of(body_);
     for (glm::dvec3& v : body_control_mm_) v /= kMm;
     const Refinement& refinement = refinements()[std::size_t(body_)];
@@ -154,7 +157,8 @@ void PlantedFruit::add_grain(Fruit& fruit, double wd, int index) const {
   // The dry style on the drupelet's top: a hair that bends at random.
   Organ style{.kind = OrganKind::style, .name = "style " + std::to_string(index + 1)};
   const auto any = [&] { return r.truncated_normal(0, 1, -1.5, 1.5); };
-  const double bend_x = any(), bend_y = any(), bend_z = any() - 0.6;
+  // Down by at most a third of its reach: a hair that came back to its root would cut itself.
+  const double bend_x = any(), bend_y = any(), bend_z = 0.5 * any() - 0.3;
   const glm::dvec3 bend(bend_x, bend_y, bend_z);
   const double reach = p.style_length_mm * r.uniform(0.6, 1.1);
   std::vector<glm::dvec3> points;
@@ -218,7 +222,7 @@ class MeshFruit final : public FruitModel {
   explicit MeshFruit(const FruitOptions& options) : FruitModel(options) {
     ControlMesh mesh = options.mesh;
     if (options.mesh_crease_angle_deg > 0) add_creases_by_angle(mesh, options.mesh_crease_angle_deg);
-    add_shape(with_paint(std::move(mesh)), false);
+    add_shape(with_paint(std::move(mesh), options.mesh_uv), false);
   }
   Fruit at(double wd) const override {
     Fruit fruit = empty_fruit();

@@ -15,25 +15,26 @@ constexpr double kMm = 1e-3;
 constexpr double kDryMoisture = 0.12;   // at which the kernel's dimensions are stated
 constexpr double kHuskMoisture = 0.45;  // husks have the size of the kernel at about this water content
 constexpr int kAwnRings = 9;
+constexpr float kNerves = 0.10f;  // of husks
 constexpr BoatOptions kLemma{.wrap_deg = 96,
                              .below = 0.10,
-                             .above = 0.46,
+                             .above = 0.60,
                              .clearance = 0.10,
                              .thickness = 0.12,
                              .keel = 0.10,
                              .tip_in = 0.36};
 constexpr BoatOptions kGlume{.wrap_deg = 88,
                              .below = 0.0,
-                             .above = 0.22,
+                             .above = 0.40,
                              .clearance = 0.22,
                              .thickness = 0.14,
-                             .keel = 0.24,
+                             .keel = 0.30,
                              .tip_in = 0.34};
 
 /// Draws of one floret, always made in this order.
 struct Draws {
   double length, width, thickness, roll, lean, side, bright, phase, ripe, awn_length, awn_side, awn_out,
-      awn_curve;
+      awn_curve, warm;
 };
 
 Draws draw(std::uint64_t seed, double variation, int index) {
@@ -46,13 +47,14 @@ Draws draw(std::uint64_t seed, double variation, int index) {
   d.roll = n(radians(6));
   d.lean = n(radians(2.5));
   d.side = n(radians(2.5));
-  d.bright = 1 + n(0.06);
+  d.bright = 1 + n(0.08);
   d.phase = variation * r.uniform(0, 6.28);
   d.ripe = n(1);
   d.awn_length = 1 + n(0.07);
   d.awn_side = n(radians(4.5));
   d.awn_out = n(radians(4));
   d.awn_curve = n(radians(5));
+  d.warm = n(1);
   return d;
 }
 
@@ -120,6 +122,8 @@ glm::dvec3 WheatEar::kernel_size(double moisture) const {
 Coat WheatEar::coat(const Palette& palette, double wd, const Draws& d, double mottle) const {
   const double own = course_.of_kernel(wd, d.ripe);
   Coat c = palette.coat(course_.ripeness(own), d.bright, mottle, d.phase);
+  const glm::vec3 tint(1 + 0.03 * d.warm, 1, 1 - 0.06 * d.warm);
+  for (glm::vec3& colour : c.along) colour *= tint;
   c.moisture_wb = float(course_.moisture_wb(own));
   c.water = float(course_.water(own));
   return c;
@@ -218,6 +222,7 @@ void WheatEar::add_floret(Moment& m, int segment, int kernel, const SpikeletPlac
                 .name = name + "lemma " + number,
                 .mirrored = place.mirrored,
                 .coat = coat(wheat_husk_palette(), m.wd, d, 0.10)};
+    lemma.coat.nerves = kNerves;
     add(m, std::move(lemma), lemma_, husk(lemma_, seat, half, open));
   }
   if (w.awns)
@@ -236,6 +241,7 @@ void WheatEar::add_glume(Moment& m, int segment, int side, const SpikeletPlace& 
               .name = "segment " + std::to_string(segment + 1) + (side < 0 ? " glume left" : " glume right"),
               .mirrored = place.mirrored,
               .coat = coat(wheat_husk_palette(), m.wd, d, 0.10)};
+  glume.coat.nerves = kNerves;
   add(m, std::move(glume), glume_,
       husk(glume_, {at.frame, frame, at.size, place.mirrored}, {0.5 * full.x, 0.5 * full.y, full.z},
            0.6 * radians(w.gape_deg) * course_.ripeness(m.wd)));

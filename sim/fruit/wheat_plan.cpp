@@ -26,7 +26,7 @@ FloretPlace floret_place(int kernel) {
   const Frame zero = kernel_zero();
   if (kernel == 0) return {zero, false, 0.82};
   const bool outer = kernel == 2 || kernel == 4;
-  Frame f = Frame{outer ? turn(74, 19) : turn(38, 13), glm::dvec3(0)} * zero;
+  Frame f = Frame{outer ? turn(74, 16) : turn(38, 12), glm::dvec3(0)} * zero;
   f.origin.z -= outer ? 1.9 : 0.9;  // the outermost florets are the lowest on the spikelet's own axis
   return {f, kernel >= 3, outer ? 1.0 : 0.94};
 }

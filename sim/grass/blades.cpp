@@ -21,6 +21,11 @@ double smooth(double x) {
 
 /// A tuft: where it stands; its blades lean outward.
 std::vector<glm::dvec2> make_tufts(const BladeOptions& o, double tile_m, std::uint64_t seed, std::uint64_t sample) {
+  if (!o.tufts_at.empty()) {
+    std::vector<glm::dvec2> tufts;
+    for (const auto& [x, y] : o.tufts_at) tufts.emplace_back(x * tile_m, y * tile_m);
+    return tufts;
+  }
   const int n = std::max(1, int(std::lround(o.clumping * o.count / o.blades_per_tuft)));
   std::vector<glm::dvec2> tufts;
   for (int i = 0; i < n; ++i) {

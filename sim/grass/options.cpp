@@ -38,6 +38,11 @@ void validate(const BladeOptions& b, const std::string& at) {
   require(at + "curl_deg", b.curl_deg, -180, 180, "deg");
   require(at + "twist_sd_deg", b.twist_sd_deg, 0, 360, "deg");
   require(at + "fold_deg", b.fold_deg, 0, 80, "deg");
+  require(at + "twin", b.twin, -1, 1023);
+  for (const auto& [x, y] : b.tufts_at) {
+    require(at + "tufts_at x", x, 0, 1, "of the tile");
+    require(at + "tufts_at y", y, 0, 1, "of the tile");
+  }
   require(at + "clumping", b.clumping, 0, 1);
   require(at + "tuft_radius_m", b.tuft_radius_m, 0, 0.2, "m");
   require(at + "blades_per_tuft", b.blades_per_tuft, 1, 1000, "blades");

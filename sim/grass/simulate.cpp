@@ -92,10 +92,12 @@ class GrassRun {
     s.first_blade_id = first_blade_id;
     if (!s.options->ageing.empty()) s.ageing = Curve(s.options->ageing, "ageing");
     const std::uint64_t stream = std::uint64_t(variant) * 4096 + i;
+    const int twin = s.options->blades.twin;
+    const std::uint64_t blade_stream = twin < 0 ? stream : (std::uint64_t(twin) + 1) << 20 | std::uint64_t(variant);
     {
       StageTimer timer(report_, "blades");
       std::vector<Blade> blades = make_blades(s.options->blades, o_.texel.size_m, s.options->season,
-                                              o_.colour.brightness_sd, o_.seed, stream);
+                                              o_.colour.brightness_sd, o_.seed, blade_stream);
       report_.blades += int(blades.size());
       s.motion = std::make_unique<BladeMotion>(std::move(blades), s.options->blades, s.options->season, o_.tissue, o_.colour);
       s.initial = s.motion->state();

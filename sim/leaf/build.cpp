@@ -353,6 +353,7 @@ LeafModel build_leaf(const LeafOptions& options, const LeafInput& input) {
   if (options.source == LeafSource::mesh) return builder.from_mesh(input.mesh);
   if (options.source == LeafSource::points) return builder.from_points(input.points, {}, true);
   VeinDraft draft = vein_draft(options);
+  if (!input.points.empty()) draft.points = input.points;  // the outline by hand; veins, margin and pose of the species
   return builder.from_points(std::move(draft.points), std::move(draft.veins), false);
 }
 

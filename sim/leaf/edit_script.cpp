@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sim/core/errors.hpp"
-#include "sim/leaf/editor.hpp"
+#include "sim/leaf/edit_walk.hpp"
 
 namespace witherfield::leaf {
 namespace {
@@ -56,52 +56,73 @@ int vertex_at_uv(const Surface& s, const glm::dvec2& uv) {
   return int(best);
 }
 
-void run_edit(const LeafModel& model, const EditOptions& options, const std::function<void(const EditFrame&)>& sink) {
-  if (options.keys.empty()) return;
-  const Surface& leaf = model.natural;
-  LeafEditor editor(leaf, options);
+EditWalk::EditWalk(LeafEditor& editor, const EditOptions& options)
+    : editor_(&editor), mode_(options.mode), max_iterations_(options.max_iterations), tolerance_(options.tolerance) {
+  const Surface& leaf = editor.leaf();
   std::vector<Handle> handles;
-  std::vector<std::size_t> owner;  // handle of the editor -> handle of the options
-  std::vector<glm::dvec3> now;
   for (std::size_t i = 0; i < options.handles.size(); ++i) {
     const HandleOptions& h = options.handles[i];
-    const int centre = h.by_uv ? vertex_at_uv(leaf, h.uv) : nearest_vertex(leaf.position_m, h.point_m);
-    for (const int v : h.radius_m > 0 ? patch(leaf.position_m, centre, h.radius_m) : std::vector<int>{centre}) {
-      const auto taken = std::find_if(handles.begin(), handles.end(), [v](const Handle& other) { return other.vertex == v; });
-      if (taken != handles.end())
+    centre_.push_back(h.by_uv ? vertex_at_uv(leaf, h.uv) : nearest_vertex(leaf.position_m, h.point_m));
+    for (const int v : h.radius_m > 0 ? patch(leaf.position_m, centre_[i], h.radius_m) : std::vector<int>{centre_[i]}) {
+      const auto taken = std::find(held_.begin(), held_.end(), v);
+      if (taken != held_.end()) {
+        const std::size_t other = owner_[std::size_t(taken - held_.begin())];
         throw InvalidInput(named(h, i) + " picks vertex " + std::to_string(v) + ", which " +
-                           named(options.handles[owner[std::size_t(taken - handles.begin())]], owner[std::size_t(taken - handles.begin())]) +
-                           " holds already; move it or make its radius_m smaller");
+                           named(options.handles[other], other) + " holds already; move it or make its radius_m smaller");
+      }
       handles.push_back({v, h.weight});
-      owner.push_back(i);
-      now.push_back(leaf.position_m[std::size_t(v)]);
+      held_.push_back(v);
+      owner_.push_back(i);
+      home_.push_back(leaf.position_m[std::size_t(v)]);
     }
   }
-  editor.set_handles(handles);
-  const std::vector<glm::dvec3> home = now;
+  editor.set_mode(mode_);
+  editor.reset();
+  editor.set_handles(std::move(handles));
+  now_ = home_;
   glm::dvec3 low = leaf.position_m[0], high = low;
   for (const glm::dvec3& p : leaf.position_m) low = glm::min(low, p), high = glm::max(high, p);
-  const double step = kStepShare * glm::distance(low, high);
+  step_m_ = kStepShare * glm::distance(low, high);
+}
 
+std::vector<glm::dvec3> EditWalk::targets(std::span<const glm::dvec3> move) const {
+  if (move.size() != centre_.size())
+    throw InvalidInput("edit: " + std::to_string(move.size()) + " moves for " + std::to_string(centre_.size()) + " handles");
+  std::vector<glm::dvec3> goal(home_);
+  for (std::size_t i = 0; i < goal.size(); ++i) goal[i] += move[owner_[i]];
+  return goal;
+}
+
+void EditWalk::go(std::span<const glm::dvec3> move) {
+  const std::vector<glm::dvec3> goal = targets(move), start(now_);
+  double longest = 0;
+  for (std::size_t i = 0; i < goal.size(); ++i) longest = std::max(longest, glm::distance(goal[i], now_[i]));
+  // Long ways in several drags: rotations then follow; only the last one must be exact.
+  const int drags = mode_ == EditMode::linear ? 1 : std::max(1, int(std::ceil(longest / step_m_)));
+  for (int d = 1; d <= drags; ++d) {
+    const double t = double(d) / drags;
+    for (std::size_t i = 0; i < now_.size(); ++i) now_[i] = d == drags ? goal[i] : (1 - t) * start[i] + t * goal[i];
+    editor_->set_iterations(d == drags ? max_iterations_ : std::min(8, max_iterations_), tolerance_);
+    editor_->drag(now_);
+  }
+}
+
+void EditWalk::follow(std::span<const glm::dvec3> move, int iterations) {
+  now_ = targets(move);
+  editor_->set_iterations(iterations, tolerance_);
+  editor_->drag(now_);
+}
+
+void run_edit(const LeafModel& model, const EditOptions& options, const std::function<void(const EditFrame&)>& sink) {
+  if (options.keys.empty()) return;
+  LeafEditor editor(model.natural, options);
+  EditWalk walk(editor, options);
   for (std::size_t k = 0; k < options.keys.size(); ++k) {
     const EditKey& key = options.keys[k];
     if (key.move_m.size() != options.handles.size())
       throw InvalidInput("edit.keys[" + std::to_string(k) + "]: " + std::to_string(key.move_m.size()) + " moves for " +
                          std::to_string(options.handles.size()) + " handles");
-    std::vector<glm::dvec3> goal(home), start(now);
-    double longest = 0;
-    for (std::size_t i = 0; i < goal.size(); ++i) {
-      goal[i] += key.move_m[owner[i]];
-      longest = std::max(longest, glm::distance(goal[i], now[i]));
-    }
-    // Long ways in several drags: rotations then follow; only the last one must be exact.
-    const int drags = options.mode == EditMode::linear ? 1 : std::max(1, int(std::ceil(longest / step)));
-    for (int d = 1; d <= drags; ++d) {
-      const double t = double(d) / drags;
-      for (std::size_t i = 0; i < now.size(); ++i) now[i] = d == drags ? goal[i] : (1 - t) * start[i] + t * goal[i];
-      editor.set_iterations(d == drags ? options.max_iterations : std::min(8, options.max_iterations), options.tolerance);
-      editor.drag(now);
-    }
+    walk.go(key.move_m);
     sink({int(k), &key, &editor.positions(), editor.report(), editor.iterations()});
   }
 }

@@ -54,9 +54,9 @@ struct LeafModel {
   double chlorophyll_ug_cm2 = 42;
 };
 
-/// What the caller read from files (source = points or mesh).
+/// What the caller read from files.
 struct LeafInput {
-  OutlinePoints points;
+  OutlinePoints points;  ///< source = points; source = veins: an outline by hand instead of the veins' own, in the leaf's frame
   Surface mesh;
 };
 

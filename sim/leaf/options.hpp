@@ -90,7 +90,7 @@ struct LeafOptions {
   double main_vein_m = 0.15;         ///< length of the main vein, 0.01..1
   double variation = 0.5;            ///< share of the measured intervals of ratios and angles that is drawn from, 0..1
   double asymmetry = 0.5;            ///< 0: both halves alike, 1: drawn apart
-  std::string points_file;           ///< source = points: CSV or JSON, read by the caller
+  std::string points_file;           ///< source = points: CSV or JSON, read by the caller; source = veins: see LeafInput
   std::string mesh_file;             ///< source = mesh: OBJ or PLY, read by the caller
   double reference_area_m2 = 0;      ///< to report the error against; 0 = none
   MarginOptions margin;

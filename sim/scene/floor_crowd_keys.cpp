@@ -57,6 +57,7 @@ void describe_crowd(KeyVisitor& v, FloorOptions& o) {
           [] { return "one of the shares must be greater than 0"; });
   v.number({"clockwise_share", "Of the patrols"}, c.clockwise_share, {0, 1});
   v.number({"women_share", "Of the people"}, c.women_share, {0, 1});
+  // The least of the four may be the standard deviation; the rest is checked by the simulator.
   const Limits speed{0.1, 4, "m/s"}, mass{1, 400, "kg"}, foot{0.1, 0.5, "m"};
   spread(v, {"speed_men_m_s", "Free walking: mean, standard deviation, least, greatest"}, c.speed_men_m_s,
          speed);
@@ -68,6 +69,11 @@ void describe_crowd(KeyVisitor& v, FloorOptions& o) {
   spread(v, {"foot_women_m", "The same of women"}, c.foot_women_m, foot);
   v.number({"toe_slide_share", "Share of the steps that end with a slide of the toe"}, c.toe_slide_share,
            {0, 1});
+  CurveKeys absent;
+  for (const auto& [first, last] : c.absent) absent.emplace_back(double(first), double(last));
+  v.pairs({"absent", "Visits [first, last) that do not take place"}, absent, {0, 1e8, "visits"}, {0, 1e8, "visits"});
+  c.absent.clear();
+  for (const auto& [first, last] : absent) c.absent.emplace_back(std::int64_t(first), std::int64_t(last));
 }
 
 void describe_gait(KeyVisitor& v, GaitOptions& g) {
@@ -88,7 +94,7 @@ void describe_gait(KeyVisitor& v, GaitOptions& g) {
   spread(v, {"slip_m", "Sliding of the sole in a step"}, g.slip_m, {0, 0.2, "m"});
   spread(v, {"toe_slide_m", "Sliding of a step with toe slide"}, g.toe_slide_m, {0, 0.3, "m"});
   v.number({"pivot_m_per_rad", "Sliding added by turning on the foot"}, g.pivot_m_per_rad, {0, 0.2, "m/rad"});
-  spread(v, {"view_distance_m", "Patrols: wall to line of walking"}, g.view_distance_m, {0.1, 10, "m"});
+  spread(v, {"view_distance_m", "Patrols: wall to line of walking"}, g.view_distance_m, {0, 10, "m"});
   v.number({"look_share", "Of the pictures passed that are stopped at"}, g.look_share, {0, 1});
   spread(v, {"look_s", "Standing before a picture"}, g.look_s, {0, 3600, "s"});
   v.whole({"steps_max", "After which a walker counts as stuck"}, g.steps_max, {10, 1e6, "steps"});

@@ -45,7 +45,7 @@ void describe_door(KeyVisitor& v, Door& d) {
 
 void describe_obstacle(KeyVisitor& v, RoomOptions& room, std::size_t i, std::vector<double>& height_m) {
   Obstacle& o = room.obstacles[i];
-  v.text({"name", "For messages and pictures: desk, column, bench ..."}, o.name, {});
+  v.text({"name", "For messages and pictures: desk, column, bench, cupboard ..."}, o.name, {});
   polygon(v, {"outline_m", "Corners"}, o.outline_m);
   if (height_m.size() <= i) height_m.resize(i + 1, 0.74);
   v.number({"height_m", "In pictures"}, height_m[i], {0.05, 10, "m"});
@@ -58,14 +58,15 @@ void describe_place(KeyVisitor& v, Place& p) {
   v.number({"facing_deg", "Where one looks there, counter-clockwise from x"}, p.facing_deg,
            {-360, 360, "deg"});
   v.number({"share", "Of the round trips, relative to the other places"}, p.share, {0, 1e6});
+  v.number({"stay_min", "How long one stays"}, p.stay_min, {0, 1e6, "min"});
   stay(v, p.from_day, p.until_day);
 }
 
 void describe_room(KeyVisitor& v, FloorScene& s) {
   RoomOptions& r = s.floor.room;
   polygon(v, {"outline_m", "Corners of the outer wall"}, r.outline_m);
-  v.number({"wall_height_m", "In pictures"}, s.wall_height_m, {1, 20, "m"});
-  v.tables(
+  v.number({"wall_height_m", "In pictures; of stairs: the side walls above the flight"}, s.wall_height_m, {1, 20, "m"});
+  v.required_tables(
       {"door", "An opening in the outer wall"}, r.doors.size(), [&](std::size_t n) { r.doors.resize(n); },
       [&](KeyVisitor& k, std::size_t i) { describe_door(k, r.doors[i]); });
   v.tables(
@@ -134,6 +135,27 @@ void describe_view(KeyVisitor& v, RoomStill& s, const std::vector<double>& frame
   v.number({"relief_scale", "Relief of wear in the picture over the true one"}, s.relief_scale, {0, 1000});
 }
 
+void describe_walk(KeyVisitor& v, WalkSources& w) {
+  v.texts({"footprints", "footprints.bin of earlier runs: visits that go the same way in this scene are taken from "
+                         "there, the others are walked"},
+          w.footprint_files, {});
+  v.texts({"tracks", "Positions of people over time: JuPedSim or Vadere text, or CSV with person, time_s, x_m, y_m. "
+                     "The visits follow them in turn"},
+          w.track_files, {});
+  v.text({"track_format", "Of those files; guess = by the header"}, w.track_format,
+         {"guess", "csv", "jupedsim", "vadere"});
+  v.check("tracks", w.track_files.empty() || w.footprint_files.empty(),
+          [] { return "cannot be given together with footprints"; });
+  std::optional<double> first, last;
+  if (w.stretch) first = w.stretch->first, last = w.stretch->second;
+  v.optional_number({"from_visit", "This run walks only a stretch of the visits, from this one on ..."}, first,
+                    {0, 1e8, "visits"}, 0);
+  v.optional_number({"until_visit", "... up to this one, itself left out"}, last, {0, 1e8, "visits"}, 50000);
+  if (!first && !last) return;
+  w.stretch = {int(first.value_or(0)), int(last.value_or(1e8))};
+  v.check("until_visit", w.stretch->first < w.stretch->second, [] { return "must be greater than from_visit"; });
+}
+
 }  // namespace
 
 void describe_floor_scene(KeyVisitor& v, FloorTables& t) {
@@ -161,6 +183,8 @@ void describe_floor_scene(KeyVisitor& v, FloorTables& t) {
     k.number({"mask_pixels_per_m", "Resolution of those pictures"}, s.mask_pixels_per_m,
              {10, 5000, "pixels/m"});
   });
+  v.table({"walk", "Footprints of earlier runs or of measured people, instead of new walks"},
+          [&](KeyVisitor& k) { describe_walk(k, s.walk); });
   v.table({"material", "The floor"}, [&](KeyVisitor& k) { describe_material(k, o.material); });
   v.table({"soil", "Dirt from outside"}, [&](KeyVisitor& k) {
     k.number({"carried", "Dirt that a clean spot gains from a step at the door"}, o.soil.carried, {0, 1});
@@ -187,8 +211,10 @@ void describe_floor_scene(KeyVisitor& v, FloorTables& t) {
   v.table({"output", "What a run writes"}, [&](KeyVisitor& k) {
     k.flag({"fields", "Write floor/*.vti and floor.pvd"}, s.output.fields);
     k.flag({"footprints",
-            "Keep the footprints: footprints.bin (32 bytes each) and footprints.vtp of the first visits"},
+            "Keep all footprints: footprints.bin (32 bytes each), which [walk] of another run can take"},
            s.output.footprints);
+    k.whole({"shown_visits", "Visits in walks.vtp, footprints.vtp and footprints.csv; 0 = no such files"},
+            s.output.shown_visits, {0, 1e6, "visits"});
     k.flag({"pov", "Write the POV-Ray scenes of the stills"}, s.output.pov);
     k.text({"compression", "Of the VTK files: fast, or small"}, s.output.compression, {"lz4", "zlib"});
   });

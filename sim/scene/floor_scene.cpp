@@ -16,7 +16,7 @@ constexpr int kPreviewPx = 240;
 
 void shrink_to_preview(FloorScene& s) {
   floor::FloorOptions& o = s.floor;
-  if (o.crowd.visits > kPreviewVisits) {
+  if (o.crowd.visits > kPreviewVisits && s.walk.footprint_files.empty()) {  // kept footprints cost no walking
     o.crowd.visits_each *= double(o.crowd.visits) / double(kPreviewVisits);
     o.crowd.visits = kPreviewVisits;
   }
@@ -34,17 +34,26 @@ FloorScene read_scene(const TomlFile& file) {
   FloorTables blank, tables;
   file.read([&](KeyVisitor& v) { describe_floor_scene(v, tables); },
             key_paths([&](KeyVisitor& v) { describe_floor_scene(v, blank); }));
-  return tables.scene;
+  return std::move(tables.scene);
+}
+
+FloorTables tables_of(const FloorScene& scene) {
+  FloorTables tables;
+  tables.scene = scene;
+  if (!scene.floor.frames.empty()) tables.view.visits_share = scene.floor.frames.back();
+  return tables;
 }
 
 }  // namespace
 
-FloorScene load_floor_scene(const std::string& path, bool preview) {
+FloorScene load_floor_scene(const std::string& path, bool preview, const std::vector<std::string>& footprints) {
   expect_kind(path, "floor");
   FloorScene scene = read_scene(TomlFile(path));
   const std::filesystem::path place(path);
   if (scene.name.empty()) scene.name = place.stem().string();
-  for (std::string& mask : scene.mask_files) mask = resolved_path(mask, place.parent_path());
+  for (std::vector<std::string>* files : {&scene.mask_files, &scene.walk.footprint_files, &scene.walk.track_files})
+    for (std::string& file : *files) file = resolved_path(file, place.parent_path());
+  scene.walk.footprint_files.insert(scene.walk.footprint_files.end(), footprints.begin(), footprints.end());
   if (preview) shrink_to_preview(scene);
   return scene;
 }
@@ -65,9 +74,24 @@ std::string floor_defaults() {
 }
 
 std::string resolved_json(const FloorScene& scene) {
-  FloorTables tables;
-  tables.scene = scene;
+  FloorTables tables = tables_of(scene);
   return values_json([&](KeyVisitor& v) { describe_floor_scene(v, tables); }, {"view"});
+}
+
+std::string resolved_toml(const FloorScene& scene) {
+  FloorTables tables = tables_of(scene);
+  return values_toml([&](KeyVisitor& v) { describe_floor_scene(v, tables); });
+}
+
+FloorScene floor_scene_from_text(const std::string& toml, const std::string& source) {
+  return read_scene(TomlFile(toml, source));
+}
+
+std::string with_line(const std::string& path, const std::string& message) {
+  const std::string key = message.substr(0, message.find_first_of(" :"));
+  if (key.find('.') == std::string::npos || message.rfind(path, 0) == 0) return message;
+  const int line = TomlFile(path).line_of(key);
+  return line > 0 ? path + ":" + std::to_string(line) + ": " + message : path + ": " + message;
 }
 
 FloorScene floor_scene_of(const std::string& json, const std::string& what) {

@@ -1,5 +1,8 @@
 #include "sim/scene/fruit_keys.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/scene/head_keys.hpp"
 #include "sim/scene/object_keys.hpp"
 
@@ -32,7 +35,7 @@ void describe_wheat(KeyVisitor& v, WheatOptions& w) {
   v.number({"kernel_length_mm", "Harvest-dry kernel, along its axis"}, w.kernel_length_mm, mm(2, 15));
   v.number({"kernel_width_mm", "Harvest-dry kernel, across"}, w.kernel_width_mm, mm(1, 8));
   v.number({"kernel_thickness_mm", "Harvest-dry kernel, front to back"}, w.kernel_thickness_mm, mm(1, 8));
-  v.flag({"husks", "Glumes, lemmas and paleas around the kernels"}, w.husks);
+  v.flag({"husks", "Glumes and lemmas around the kernels"}, w.husks);
   v.number({"gape_deg", "How far the ripe husks open"}, w.gape_deg, {0, 30, "deg"});
   v.flag({"awns", "The bristles of bearded wheat"}, w.awns);
   v.number({"awn_length_mm", "Of the longest awns; measured 40 to 100"}, w.awn_length_mm, mm(1, 200));
@@ -120,9 +123,16 @@ void describe_mesh(KeyVisitor& v, FruitScene& s) {
   CurveKeys edges(s.mesh_creases.begin(), s.mesh_creases.end());
   v.pairs({"mesh_creases", "Crease edges of the mesh as pairs of vertex numbers, from 0"}, edges, {0, 1e9},
           {0, 1e9});
+  const auto whole = [](double x) { return x == std::floor(x); };
+  v.check("mesh_creases",
+          std::all_of(edges.begin(), edges.end(),
+                      [&](const auto& e) { return whole(e.first) && whole(e.second); }),
+          [] { return "vertex numbers must be whole numbers"; });
   s.mesh_creases.assign(edges.begin(), edges.end());
   std::vector<double> sharp(s.mesh_sharp.begin(), s.mesh_sharp.end());
   v.list({"mesh_sharp", "Sharp vertices of the mesh, numbered from 0"}, sharp, {0, 1e9}, Order::any);
+  v.check("mesh_sharp", std::all_of(sharp.begin(), sharp.end(), whole),
+          [] { return "vertex numbers must be whole numbers"; });
   s.mesh_sharp.assign(sharp.begin(), sharp.end());
 }
 

@@ -16,9 +16,10 @@ constexpr int kPreviewSpikelets = 10, kPreviewRows = 12, kPreviewPerRow = 16, kP
 void shrink_to_preview(FruitScene& s) {
   fruit::FruitOptions& o = s.fruit;
   o.steps = std::min(o.steps, 1);
-  o.wheat.spikelets = std::min(o.wheat.spikelets, kPreviewSpikelets);
-  o.wheat.ear_length_mm *= double(o.wheat.spikelets) / 20;
-  o.wheat.ear_length_mm = std::max(o.wheat.ear_length_mm, 20.0);
+  if (o.wheat.spikelets > kPreviewSpikelets) {
+    o.wheat.ear_length_mm = std::max(20.0, o.wheat.ear_length_mm * kPreviewSpikelets / o.wheat.spikelets);
+    o.wheat.spikelets = kPreviewSpikelets;
+  }
   o.maize.rows = std::min(o.maize.rows, kPreviewRows);
   if (o.maize.kernels_per_row > kPreviewPerRow) {
     o.maize.ear_length_mm = std::max(60.0, o.maize.ear_length_mm * kPreviewPerRow / o.maize.kernels_per_row);

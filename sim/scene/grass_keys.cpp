@@ -151,6 +151,8 @@ void describe_blades(KeyVisitor& v, BladeOptions& b) {
              b.form = before.form;  // how many blades, and how they are modelled, is not the species' affair
              b.count = before.count;
              b.segments = before.segments;
+             b.tufts_at = before.tufts_at;
+             b.twin = before.twin;
            });
   choice(v, {"form", "A folded two-sided strip, or a cone"}, b.form, kForms);
   v.whole({"count", "Blades on the tile"}, b.count, {1, 100000, "blades"});
@@ -168,6 +170,10 @@ void describe_blades(KeyVisitor& v, BladeOptions& b) {
   v.number({"clumping", "Share of the blades that stand in tufts"}, b.clumping, {0, 1});
   v.number({"tuft_radius_m", "Radius of a tuft, a standard deviation"}, b.tuft_radius_m, {0, 0.2, "m"});
   v.whole({"blades_per_tuft", "Blades in a tuft"}, b.blades_per_tuft, {1, 1000, "blades"});
+  v.pairs({"tufts_at", "Where the tufts stand, [[x, y], ...] in shares of the tile; empty = at random"}, b.tufts_at,
+          {0, 1, "of the tile"}, {0, 1, "of the tile"});
+  v.whole({"twin", "Samples with the same number have the same blades, to compare climates; -1 = blades of its own"},
+          b.twin, {-1, 1023});
   v.whole({"segments", "Pieces of a blade's centre line"}, b.segments, {4, 128});
 }
 

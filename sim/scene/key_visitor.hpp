@@ -65,6 +65,12 @@ class KeyVisitor {
   virtual void tables(const Key&, std::size_t present, const std::function<void(std::size_t)>& resize,
                       const std::function<void(KeyVisitor&, std::size_t)>& body) = 0;
 
+  /// The same where a scene needs at least one of them (printed defaults show it live).
+  virtual void required_tables(const Key& key, std::size_t present, const std::function<void(std::size_t)>& resize,
+                               const std::function<void(KeyVisitor&, std::size_t)>& body) {
+    tables(key, present, resize, body);
+  }
+
   /// A condition between keys; the reader reports it at `key` when it does not hold.
   virtual void check(std::string_view key, bool holds, const std::function<std::string()>& message) = 0;
   virtual bool reading() const { return false; }

@@ -14,7 +14,7 @@ constexpr Named<LeafSource> kSources[] = {
     {"veins", LeafSource::veins}, {"points", LeafSource::points}, {"mesh", LeafSource::mesh}};
 constexpr Named<EditMode> kModes[] = {{"linear", EditMode::linear},
                                       {"rotation_aware", EditMode::rotation_aware}};
-const ObjectChoices kChoices{{"whole", "stages"}, {"blade", "petiole"}};
+const ObjectChoices kChoices{{"whole", "stages", "handles"}, {"blade", "petiole", "stem"}};
 
 void describe_top(KeyVisitor& v, LeafScene& s) {
   LeafOptions& o = s.leaf;
@@ -31,7 +31,8 @@ void describe_top(KeyVisitor& v, LeafScene& s) {
   v.number({"variation", "Share of the measured intervals of ratios and angles that is drawn from"},
            o.variation, {0, 1});
   v.number({"asymmetry", "0: both halves alike, 1: drawn apart"}, o.asymmetry, {0, 1});
-  v.text({"points", "source = \"points\": CSV of group,x,y[,z] with group = left, right, midrib, or JSON"},
+  v.text({"points",
+          "CSV of group,x,y[,z] with group = left, right, midrib, or JSON; source = \"veins\": an outline set by hand"},
          o.points_file, {});
   v.text({"points_unit", "Unit of its numbers (a JSON file may state its own)"}, s.points_unit, {"m", "cm", "mm"});
   v.text({"mesh_file", "source = \"mesh\": OBJ, PLY, OFF, STL or VTP"}, o.mesh_file, {});

@@ -19,6 +19,8 @@ struct OutputOptions {
   bool fields = true;               ///< texel/*.vti and grass.pvd
   bool optics = true;               ///< optics/*.vti
   bool points = true;               ///< points/*.vtp
+  bool blades = false;              ///< blades/*.vtp
+  std::string other_variants = "fields";  ///< of the texel's variants but the first: "all" of the above, "fields", "none"
   bool pov = true;                  ///< pov/ scenes
   std::string compression = "lz4";  ///< "lz4" (fast) or "zlib" (small, for archives and the web)
 };
@@ -59,7 +61,7 @@ struct FruitScene {
   ObjectOutput output;
 };
 
-/// @param preview at most 1 step of subdivision, 2 key frames, stills of 240 pixels; smaller ears.
+/// @param preview at most 1 step of subdivision, stills of 240 pixels; smaller ears.
 FruitScene load_fruit_scene(const std::string& path, bool preview = false);
 std::string resolved_json(const FruitScene& scene);
 
@@ -79,7 +81,16 @@ struct RoomStill {
 
 struct FloorOutput {
   bool fields = true, footprints = false, pov = true;
+  int shown_visits = 100;  ///< in walks.vtp, footprints.vtp and footprints.csv
   std::string compression = "lz4";
+};
+
+/// Where footprints come from, if not from walkers of this run's own.
+struct WalkSources {
+  std::vector<std::string> footprint_files;  ///< footprints.bin of earlier runs
+  std::vector<std::string> track_files;      ///< positions of people over time
+  std::string track_format = "guess";
+  std::optional<std::pair<int, int>> stretch;  ///< visits [first, last) that this run walks; none = all
 };
 
 struct FloorScene {
@@ -90,13 +101,22 @@ struct FloorScene {
   double wall_height_m = 2.7;
   std::vector<double> obstacle_height_m;  ///< one per obstacle
   std::vector<RoomWindow> windows;
+  WalkSources walk;
   std::vector<RoomStill> stills;
   FloorOutput output;
 };
 
-/// @param preview few visitors, each of whom stands for many, on a coarse floor; stills of 240 pixels.
-FloorScene load_floor_scene(const std::string& path, bool preview = false);
+/// @param preview few visitors, each of whom stands for many (all of them where earlier footprints are taken), on a coarse
+/// floor; stills of 240 pixels. @param footprints files besides those that the scene names.
+FloorScene load_floor_scene(const std::string& path, bool preview = false,
+                            const std::vector<std::string>& footprints = {});
 std::string resolved_json(const FloorScene& scene);
+/// The resolved scene as TOML, and back: what footprints.bin carries. `source` names it in messages.
+std::string resolved_toml(const FloorScene& scene);
+FloorScene floor_scene_from_text(const std::string& toml, const std::string& source);
+/// "file:line: message" for a message of the floor simulator that begins with a key, such as "room.door[0] 'main': ..."; the
+/// message as it is when the file does not state that key. @throws IoFailure.
+std::string with_line(const std::string& path, const std::string& message);
 
 struct LeafScene {
   std::string name;

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "sim/scene/key_writers.hpp"
 
 namespace witherfield::scene {
@@ -23,14 +25,16 @@ std::string bracketed(const Items& items, const ToText& to_text) {
 
 class Printer : public KeyVisitor {
  public:
-  Printer(std::string& out, bool commented) : out_(out), margin_(commented ? "# " : "") {}
+  /// @param plain values alone, nothing commented out.
+  Printer(std::string& out, bool commented, bool plain = false, std::string prefix = "")
+      : out_(out), margin_(commented ? "# " : ""), plain_(plain), prefix_(std::move(prefix)) {}
 
   void number(const Key& key, double& value, const Limits& limits) override {
     line(key, limits_text(limits), number_text(value));
   }
   void optional_number(const Key& key, std::optional<double>& value, const Limits& limits,
                        double example) override {
-    line(key, limits_text(limits), number_text(value.value_or(example)), !value);
+    if (!plain_ || value) line(key, limits_text(limits), number_text(value.value_or(example)), !value);
   }
   void whole(const Key& key, int& value, const Limits& limits) override {
     line(key, limits_text(limits), std::to_string(value));
@@ -41,7 +45,7 @@ class Printer : public KeyVisitor {
     line(key, quoted_list(allowed, "or"), quoted(value));
   }
   void texts(const Key& key, std::vector<std::string>& value, const Choices& allowed) override {
-    line(key, "any of " + quoted_list(allowed, "and"), bracketed(value, quoted));
+    line(key, allowed.empty() ? "" : "any of " + quoted_list(allowed, "and"), bracketed(value, quoted));
   }
   void numbers(const Key& key, std::span<double> values, const Limits& limits, Order) override {
     line(key, limits_text(limits), bracketed(values, number_text));
@@ -62,11 +66,13 @@ class Printer : public KeyVisitor {
   }
   void preset(const Key& key, const Choices& names, std::string_view preset,
               const std::function<void(const std::string&)>&) override {
-    line(key, quoted_list(names, "or"), quoted(preset.empty() ? names.front() : std::string(preset)),
+    if (!plain_) line(key, quoted_list(names, "or"), quoted(preset.empty() ? names.front() : std::string(preset)),
          preset.empty());
   }
   void table(const Key& key, const Body& body) override { print_table(key, "[", "]", false, body); }
-  void optional_table(const Key& key, bool, const std::function<void()>&, const Body& body) override {
+  void optional_table(const Key& key, bool present, const std::function<void()>& make, const Body& body) override {
+    if (plain_ && !present) return;
+    if (!present) make();
     print_table(key, "[", "]", true, body);
   }
   void tables(const Key& key, std::size_t present, const std::function<void(std::size_t)>&,
@@ -74,22 +80,36 @@ class Printer : public KeyVisitor {
     for (std::size_t i = 0; i < present; ++i)
       print_table(key, "[[", "]]", true, [&](KeyVisitor& v) { body(v, i); });
   }
+  void required_tables(const Key& key, std::size_t present, const std::function<void(std::size_t)>&,
+                       const std::function<void(KeyVisitor&, std::size_t)>& body) override {
+    for (std::size_t i = 0; i < present; ++i)
+      print_table(key, "[[", "]]", false, [&](KeyVisitor& v) { body(v, i); });
+  }
   void check(std::string_view, bool, const std::function<std::string()>&) override {}
+  /// Tables come after all keys of the table they stand in, whatever the order of the visit: TOML takes a key for one
+  /// of the last table above it.
+  void finish() { out_ += std::exchange(tables_, {}); }
 
  private:
   void line(const Key& key, const std::string& range, const std::string& value, bool commented = false) {
-    out_ += fmt::format("{}# {}{}\n", margin_, key.doc, range.empty() ? "" : ". [" + range + "]");
+    if (!plain_) out_ += fmt::format("{}# {}{}\n", margin_, key.doc, range.empty() ? "" : ". [" + range + "]");
     out_ += fmt::format("{}{}{} = {}\n", margin_, commented ? "# " : "", key.name, value);
   }
   void print_table(const Key& key, const char* open, const char* close, bool commented, const Body& body) {
-    const std::string margin = commented ? "# " : margin_;
-    out_ += fmt::format("\n{}# {}.\n{}{}{}{}\n", margin, key.doc, margin, open, key.name, close);
-    Printer inner(out_, commented);
+    const bool quiet = plain_ || !(commented || !margin_.empty());
+    const std::string margin = quiet ? "" : "# ", name = prefix_ + std::string(key.name);
+    if (!plain_) tables_ += fmt::format("\n{}# {}.\n", margin, key.doc);
+    tables_ += fmt::format("{}{}{}{}\n", margin, open, name, close);
+    Printer inner(tables_, !quiet, plain_, name + ".");
     body(inner);
+    inner.finish();
   }
 
   std::string& out_;
+  std::string tables_;
   std::string margin_;
+  bool plain_;
+  std::string prefix_;
 };
 
 }  // namespace
@@ -98,6 +118,15 @@ std::string commented_toml(const KeyVisitor::Body& describe) {
   std::string out;
   Printer printer(out, false);
   describe(printer);
+  printer.finish();
+  return out;
+}
+
+std::string values_toml(const KeyVisitor::Body& describe) {
+  std::string out;
+  Printer printer(out, false, true);
+  describe(printer);
+  printer.finish();
   return out;
 }
 

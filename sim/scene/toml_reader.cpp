@@ -302,18 +302,22 @@ void Reader::finish() const {
       fmt::format("{}:{}: {}: unknown key; {}", file_, first->source().begin.line, full(name), hint));
 }
 
+toml::table parse_text(const std::string& text, const std::string& path) {
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& e) {
+    throw InvalidInput(
+        fmt::format("{}:{}: not valid TOML: {}", path, e.source().begin.line, e.description()));
+  }
+}
+
 toml::table parse(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoFailure(path + ": cannot open the scene file (does it exist, and may it be read?)");
   std::ostringstream text;
   text << in.rdbuf();
   if (in.bad()) throw IoFailure(path + ": cannot read the scene file");
-  try {
-    return toml::parse(text.str(), path);
-  } catch (const toml::parse_error& e) {
-    throw InvalidInput(
-        fmt::format("{}:{}: not valid TOML: {}", path, e.source().begin.line, e.description()));
-  }
+  return parse_text(text.str(), path);
 }
 
 using Json = nlohmann::ordered_json;
@@ -358,6 +362,8 @@ TomlFile TomlFile::from_json(const std::string& text, const std::string& what) {
 TomlFile::TomlFile(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 TomlFile::TomlFile(TomlFile&&) noexcept = default;
 TomlFile::TomlFile(const std::string& path) : impl_(new Impl{path, parse(path)}) {}
+TomlFile::TomlFile(const std::string& text, const std::string& source)
+    : impl_(new Impl{source, parse_text(text, source)}) {}
 TomlFile::~TomlFile() = default;
 
 void TomlFile::read(const KeyVisitor::Body& describe, const std::vector<std::string>& all_keys) const {
@@ -372,6 +378,20 @@ std::string TomlFile::top_text(const char* key) const {
   if (!node->is_string())
     throw InvalidInput(where(key) + " = " + text_of(*node) + ": must be a text in quotes");
   return node->as_string()->get();
+}
+
+int TomlFile::line_of(const std::string& key_path) const {
+  int line = 0;
+  for (std::string path = key_path; !path.empty();) {
+    if (const toml::node* node = impl_->root.at_path(path).node()) {
+      line = int(node->source().begin.line);
+      if (!node->is_array_of_tables()) return line;
+    }
+    if (line > 0) return line;
+    const std::size_t end = path.find_last_of(".[");
+    path.resize(end == std::string::npos ? 0 : end);
+  }
+  return line;
 }
 
 std::string TomlFile::where(const char* key) const {

@@ -133,6 +133,9 @@ void describe_output(KeyVisitor& v, OutputOptions& o) {
   v.flag({"optics", "Write optics/*.vti and grass_optics.pvd (normal, tangent, diffuse, specular)"},
          o.optics);
   v.flag({"points", "Write points/*.vtp and grass_points.pvd"}, o.points);
+  v.flag({"blades", "Write blades/*.vtp and grass_blades.pvd: the blades as meshes"}, o.blades);
+  v.text({"other_variants", "Which of these are written of the texel's variants but the first"}, o.other_variants,
+         {"all", "fields", "none"});
   v.flag({"pov", "Write the POV-Ray scenes of the stills"}, o.pov);
   v.text({"compression", "Of the VTK files: fast, or small"}, o.compression, {"lz4", "zlib"});
 }

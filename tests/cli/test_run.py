@@ -66,6 +66,27 @@ class Run(ProgramTest):
         self.assertIn("texel/texel_v1_0000.vti", series)
         self.assertIn('timestep="6"', series)
 
+    def test_other_variants_write_what_is_asked_for(self):
+        text = TINY.replace("resolution = 32", "resolution = 32\nvariants = 2")
+        for what, series in (("all", {"texel", "optics", "points"}), ("fields", {"texel"}), ("none", set())):
+            self.good("run", self.scene(text + f'[output]\nother_variants = "{what}"\n'), "-o", what)
+            files = self.files(what)
+            self.assertEqual({f.split("/")[0] for f in files if "_v1_" in f}, series, what)
+            self.assertIn("optics/optics_0000.vti", files)  # the first variant's
+
+    def test_blades_are_written_as_meshes_that_pass_the_check(self):
+        self.good("run", self.scene(TINY + "[output]\nblades = true\n"))
+        run = json.loads((self.folder / "out/scene/run.json").read_text())
+        self.assertEqual(run["blade_meshes"]["meshes"], 3)
+        self.assertEqual(run["blade_meshes"]["blades"], 90)
+        self.assertTrue(run["checks"]["blades_not_manifold"]["passed"])
+        self.assertTrue(run["checks"]["blades_degenerate_faces"]["passed"])
+        self.assertIn("blades/blades_0002.vtp", (self.folder / "out/scene/grass_blades.pvd").read_text())
+        found = json.loads(self.good("check", "out/scene/blades/blades_0002.vtp", "--json").stdout)["meshes"][0]
+        self.assertEqual(found["length_unit"], "mm")
+        self.assertEqual(found["shells"], 30)
+        self.assertEqual(found["shell"][7]["part"], "blade 7")
+
     def test_output_switches(self):
         text = TINY + '[output]\noptics = false\npoints = false\ncompression = "zlib"\n'
         self.good("run", self.scene(text))

@@ -77,6 +77,19 @@ TEST(Shells, AreSoundBallsAtAnyStep) {
       }
 }
 
+TEST(Shells, HairsNeverCutThemselves) {
+  FruitOptions o = crop_preset("planted");
+  o.planted.grains = 250;
+  int hairs = 0;
+  for (const std::uint64_t seed : {9, 10})
+    for (const Shell& s : shells((o.seed = seed, o), 1)) {
+      if (s.kind != OrganKind::style) continue;
+      ++hairs;
+      EXPECT_EQ(check::check_mesh(to_tri_mesh(s.surface)).self_intersections, 0u) << seed << " " << s.name;
+    }
+  EXPECT_EQ(hairs, 500);
+}
+
 TEST(Shells, AreTheSurfaceInPieces) {
   const FruitOptions o = small("wheat");
   const FruitFrame frame = one_frame(o, 0.4);

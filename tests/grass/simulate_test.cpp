@@ -218,5 +218,35 @@ TEST(Simulate, RefusesNonsense) {
   refused([](GrassOptions& o) { o.tissue.volume_strain_vein = -0.8; });
 }
 
+TEST(Simulate, TwinsAreTheSameBladesInOtherClimates) {
+  GrassOptions o = small(2, 30);
+  o.wd_frames = {0.0, 0.5};
+  for (SampleOptions& s : o.samples) {
+    s.blades.clumping = 1;
+    s.blades.tuft_radius_m = 0.002;
+    s.blades.twin = 3;
+  }
+  o.samples[0].blades.tufts_at = {{0.25, 0.5}};
+  o.samples[1].blades.tufts_at = {{0.75, 0.5}};
+  o.samples[0].season.climate = Climate::cold;
+  o.samples[1].season.climate = Climate::water_rich;
+  const Frames f = simulate(o);
+  const std::size_t half = f.blades[0].center_m.size() / 2;
+  const glm::dvec3 apart{0.5 * o.texel.size_m, 0, 0};
+  double tip_apart = 0, water_apart = 0;
+  for (std::size_t i = 0; i < half; ++i) {
+    EXPECT_NEAR(f.blades[0].center_m[i].z, f.blades[0].center_m[half + i].z, 1e-12);
+    EXPECT_LT(glm::distance(f.blades[0].center_m[i] + apart, f.blades[0].center_m[half + i]), 1e-9);
+    tip_apart = std::max(tip_apart, glm::distance(f.blades[1].center_m[i] + apart, f.blades[1].center_m[half + i]));
+    water_apart += double(f.blades[1].water[half + i] - f.blades[1].water[i]) / double(half);
+  }
+  EXPECT_GT(tip_apart, 0.001);
+  EXPECT_GT(water_apart, 0.05);  // the well watered one has more
+  // Without twins the blades differ.
+  for (SampleOptions& s : o.samples) s.blades.twin = -1;
+  const Frames own = simulate(o);
+  EXPECT_GT(glm::distance(own.blades[0].center_m[5] + apart, own.blades[0].center_m[half + 5]), 1e-6);
+}
+
 }  // namespace
 }  // namespace witherfield::grass

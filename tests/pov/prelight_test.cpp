@@ -100,8 +100,24 @@ TEST(Prelight, SkyIsWholeAboveTheGrassAndLessBelow) {
   const auto sky = sky_visibility(light.block(), light.per_density(), points, 0);
   EXPECT_NEAR(sky[0], 1.0, 1e-6);
   EXPECT_LT(sky[1], 0.6);
-  EXPECT_GT(light.ground_sun(toward(20, 70)),
-            light.ground_sun(toward(20, 20)));  // a low sun goes a longer way
+  EXPECT_GT(light.ground(toward(20, 70)).sun, light.ground(toward(20, 20)).sun);  // a low sun goes a longer way
+}
+
+TEST(Prelight, TheGroundThatIsSeenIsLighterThanTheMean) {
+  const TexelGrid grid = fixture::texel(fixture::blades(200, 0.2, 0.2, 2), fixture::shape(0.2, 64, 8));
+  const TexelPrelight light(grid, true, 0.003);
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 400; ++i) points.push_back({0.01 * (i % 20 + 0.5), 0.01 * (i / 20 + 0.5), 0.0});
+  double mean = 0, most = 0;
+  for (const float s : sky_visibility(light.block(), light.per_density(), points, 0)) {
+    mean += s / double(points.size());
+    most = std::max<double>(most, s);
+  }
+  const GroundShares seen = light.ground(toward(20, 50));
+  EXPECT_GT(seen.sky, 1.05 * mean);
+  EXPECT_LT(seen.sky, most);
+  EXPECT_GE(seen.sun, 0.0);
+  EXPECT_LE(seen.sun, 1.0);
 }
 
 TEST(Prelight, EnergyStaysBelowTheUnshadedLeaf) {

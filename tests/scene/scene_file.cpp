@@ -8,11 +8,11 @@
 
 namespace witherfield::scene {
 
-SceneFile::SceneFile(const std::string& text, const std::string& stem) {
+SceneFile::SceneFile(const std::string& text, const std::string& stem, const std::string& kind) {
   std::string folder = (std::filesystem::temp_directory_path() / "witherfield_scene_XXXXXX").string();
   if (!mkdtemp(folder.data())) throw std::runtime_error("cannot make a folder for the test");
   path_ = std::filesystem::path(folder) / (stem + ".toml");
-  std::ofstream(path_) << "kind = \"grass\"\n" << text;
+  std::ofstream(path_) << "kind = \"" << kind << "\"\n" << text;
 }
 
 SceneFile::~SceneFile() {

@@ -10,7 +10,7 @@ namespace witherfield::scene {
 class SceneFile {
  public:
   /// Writes `text` to a new file <folder>/<stem>.toml; "kind" is put on the first line.
-  explicit SceneFile(const std::string& text, const std::string& stem = "scene");
+  explicit SceneFile(const std::string& text, const std::string& stem = "scene", const std::string& kind = "grass");
   ~SceneFile();
   std::string path() const { return path_.string(); }
 

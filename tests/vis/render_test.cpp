@@ -4,6 +4,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "sim/core/errors.hpp"
 #include "tests/vis/sample.hpp"
 #include "vis/colour_map.hpp"
+#include "vis/mesh_files.hpp"
 #include "vis/volume.hpp"
 #include "vis/writers.hpp"
 
@@ -240,6 +242,54 @@ TEST_F(Render, BadRequestsAreNamed) {
   EXPECT_THROW(render_volume(folder / "none.vti", folder / "out.png", small("water")), IoFailure);
   EXPECT_THROW(render_volume(folder / "a.vti", folder / "none/out.png", small("water")), IoFailure);
   EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+}
+
+/// A floor lies as a sheet, seen from above: east right, north up, without gaps.
+TEST_F(Render, AFloorIsASheetWithNorthUp) {
+  FloorField floor(40, 20, {0, 0}, 0.1);
+  auto& gloss = floor.make("gloss");
+  for (int j = 0; j < 20; ++j)
+    for (int i = 0; i < 40; ++i) gloss[std::size_t(j * 40 + i)] = i >= 20 && j >= 10 ? 1.0f : 0.0f;
+  write_floor_vti(folder / "floor.vti", floor, {0, 0});
+  VolumeOptions options = small("gloss");
+  options.azimuth_deg = -90;
+  options.elevation_deg = 89;
+  options.range = {{0.0, 1.0}};
+  const Picture p = picture("floor.vti", options);
+  // In the colours of the ends of the scale; only the north-east quarter has the upper one.
+  const ColourMap map = colour_map("gloss", 0, 1);
+  std::array<int, 4> high{};
+  int low = 0;
+  glm::dvec2 middle(0.0);
+  std::vector<glm::dvec2> where;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kStrip; ++x) {
+      const bool is_high = glm::distance(p.at(x, y), map.at(1)) < 0.05, is_low = glm::distance(p.at(x, y), map.at(0)) < 0.05;
+      low += is_low;
+      if (!is_high && !is_low) continue;
+      middle += glm::dvec2(x, y);
+      where.emplace_back(x, y);
+    }
+  middle /= double(where.size());
+  for (const glm::dvec2& w : where)
+    if (glm::distance(p.at(int(w.x), int(w.y)), map.at(1)) < 0.05) ++high[std::size_t((w.x > middle.x) + 2 * (w.y > middle.y))];
+  const int all = high[0] + high[1] + high[2] + high[3];
+  EXPECT_NEAR(double(low) / all, 3.0, 0.3);
+  EXPECT_GT(high[3], 0.95 * all);
+  EXPECT_THROW(picture("floor.vti", small("wear_depth_um")), InvalidInput);
+}
+
+TEST_F(Render, ALeafIsDrawnInTheColoursOfItsField) {
+  Surface s;
+  for (int j = 0; j <= 1; ++j)
+    for (int i = 0; i <= 1; ++i) s.position_m.emplace_back(0.1 * i, 0.1 * j, 0.02 * i);
+  s.triangles = {{0, 1, 3}, {0, 3, 2}};
+  for (float& w : s.make_field("water").values) w = 0.5f;
+  write_surface_vtp(folder / "leaf.vtp", s, {0, 0}, "mm");
+  VolumeOptions options = small("water");
+  options.elevation_deg = 60;
+  options.range = {{0.0, 1.0}};
+  EXPECT_GT(coloured_share(picture("leaf.vtp", options), 0, kStrip), 0.08);
 }
 
 /// Exits with 0 when rendering ends in an IoFailure that says what to do.
