@@ -103,10 +103,6 @@ void describe_gait(KeyVisitor& v, GaitOptions& g) {
 void describe_material(KeyVisitor& v, MaterialOptions& m) {
   v.preset({"preset", "A floor whose layers and pattern the keys below then adjust"}, material_names(), "",
            [&](const std::string& name) { m = material_preset(name); });
-  v.tables(
-      {"layer", "Layers from the top; the last one has no end"}, m.layers.size(),
-      [&](std::size_t n) { m.layers.assign(n, Layer{}); },
-      [&](KeyVisitor& k, std::size_t i) { describe_layer(k, m.layers[i]); });
   FloorPattern& p = m.pattern;
   choice(v, {"laying", "How the floor is laid"}, p.laying, kLayings);
   v.number({"piece_length_m", "Of a board, tile or slab, along the laying direction"}, p.length_m,
@@ -119,6 +115,11 @@ void describe_material(KeyVisitor& v, MaterialOptions& m) {
   v.number({"finish_sd", "Unevenness of the upper layers' thickness, relative"}, m.finish_sd, {0, 0.5});
   v.number({"joint_depth_m", "Depth of the joints"}, m.joint_depth_m, {0, 0.1, "m"});
   v.number({"piece_level_sd_m", "How unevenly the pieces lie"}, m.piece_level_sd_m, {0, 0.02, "m"});
+  // Last: in a printed scene, keys that follow a table belong to it.
+  v.tables(
+      {"layer", "Layers from the top; the last one has no end"}, m.layers.size(),
+      [&](std::size_t n) { m.layers.assign(n, Layer{}); },
+      [&](KeyVisitor& k, std::size_t i) { describe_layer(k, m.layers[i]); });
 }
 
 }  // namespace witherfield::scene

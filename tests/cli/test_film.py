@@ -151,17 +151,15 @@ class Film(ProgramTest):
     @needs("povray", "ffmpeg")
     def test_ctrl_c_leaves_keys_for_resume_and_nothing_half_written(self):
         self.good("run", self.scene(FLOOR))
-        arguments = ["film", "out/room", "--seconds", "1", "--size", "320x180", "--blend-bound", "0.2"]
+        arguments = ["film", "out/room", "--seconds", "1", "--size", "160x90", "--blend-bound", "0.05", "--keys", "60"]
         work = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         keys = self.folder / "out/room/film/worn_keys"
-        for _ in range(2400):
-            if len(list(keys.glob("key_*.hdr"))) >= 2 or work.poll() is not None:
-                break
+        while not list(keys.glob("key_*.hdr")) and work.poll() is None:  # the test's own time limit ends it
             time.sleep(0.05)
         work.send_signal(signal.SIGINT)
         work.communicate(timeout=120)
         self.assertEqual(work.returncode, 128 + signal.SIGINT)
-        self.assertGreaterEqual(len(list(keys.glob("key_*.hdr"))), 2)
+        self.assertGreaterEqual(len(list(keys.glob("key_*.hdr"))), 1)
         self.assertEqual([p.name for p in keys.parent.iterdir()], ["worn_keys"])
         self.assertFalse((keys / "scene").exists())
         self.assert_nothing_half_written()

@@ -38,6 +38,7 @@ TEST_F(LeafSkin, RenderedFromAboveAndAgainstTheLight) {
   EXPECT_GT(main[1], 1.3 * blade[1]);
   EXPECT_GT(side[1], 1.1 * blade[1]);
   // From below there is only what comes through: a saturated yellow-green.
+  input.backdrop = Backdrop::sky;  // no paper between
   input.fill = 0.02;
   input.still.camera.position_m = {0, -1e-3, -0.3};
   const auto through = at(rendered(folder, input), 0.6, 0.6);
