@@ -137,6 +137,27 @@ TEST(Studio, PlateFacingTheBoxSendsBackItsReflectance) {
     EXPECT_NEAR(glow.meshes[0].front[middle][c], 0.5 * studio.boxes[0].colour[c], 0.02) << c;
 }
 
+TEST(Studio, WhatStandsInTheWayShades) {
+  // A ball, not a second plate: the inside of an open sheet glows like its outside, because organs are closed.
+  const Surface s = plate(0.02, 8), over = ball(0.02, 24);
+  ObjectSceneInput in;
+  in.objects.resize(2);
+  in.objects[0].surface = &s;
+  in.objects[1].surface = &over;
+  in.objects[1].position_m = {0, 0, 0.03};
+  in.still = still_from(90, 90);
+  in.still.camera = frame_objects(in.objects, 270, 60, 20, 1);
+  in.backdrop = Backdrop::dark;  // white paper would throw light in from the sides
+  in.fill = in.rim = 0;
+  in.key_size = 0.05;
+  const std::vector<LitMesh> meshes{place_mesh(in.objects[0]), place_mesh(in.objects[1])};
+  const StudioGlow glow = light_studio(make_studio(in), View(in.still), SceneTree(meshes), meshes);
+  float brightest = 0;
+  for (const glm::vec3& g : glow.meshes[1].front) brightest = std::max(brightest, g.y);
+  EXPECT_GT(brightest, 0.2f);
+  EXPECT_LT(glow.meshes[0].front[4 * 9 + 4].y, 0.1f * brightest);
+}
+
 TEST(Frame, EveryVertexIsInThePictureAndTouchesItsMargin) {
   const Surface s = ball(0.03, 12);
   ObjectPlacement o;
