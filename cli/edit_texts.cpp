@@ -53,8 +53,11 @@ TextRows panel_rows(const EditSession& session, const EditStatus& s) {
 
 std::string title_text(const EditSession& session, const EditStatus& s) {
   const std::string name = s.name + (s.changed ? "*" : "");
-  if (s.tool == EditTool::outline)
-    return fmt::format("{} - outline points: {:.1f} cm2 - witherfield edit", name, session.model().area_m2 * 1e4);
+  if (s.tool == EditTool::outline) {
+    const leaf::OutlinePoints& p = session.points();
+    return fmt::format("{} - points: outline {}, midrib {}; {:.1f} cm2 - witherfield edit", name, p.left_m.size() + p.right_m.size(),
+                       p.midrib_m.size(), session.model().area_m2 * 1e4);
+  }
   return fmt::format("{} - handles: {}, {}, area {}, strain {:.1f} %, flipped {}, intersecting {} - witherfield edit", name,
                      session.edit().handles.size(), mode_name(session.edit().mode), percent(s.report.area_drift),
                      100 * s.report.largest_strain, s.report.flipped_faces, crossing(s.intersections));

@@ -53,6 +53,9 @@ pov::RoomSceneInput room_input(const scene::FloorScene& scene, const scene::Room
     if (r.obstacles[i].from_day <= day && day <= r.obstacles[i].until_day)
       in.obstacles.push_back(
           {obstacle_of(r.obstacles[i].name), r.obstacles[i].outline_m, scene.obstacle_height_m.at(i)});
+  for (const floor::Place& p : r.places)
+    if (p.from_day <= day && day <= p.until_day && (p.name.find("chair") != std::string::npos || p.name.find("seat") != std::string::npos))
+      in.seats.push_back({p.at_m, p.facing_deg});
   for (const floor::Picture& p : r.pictures) in.pictures.push_back({p.at_m});
   return in;
 }

@@ -46,6 +46,7 @@ class LeafRun : public RunStages {
     leaf::validate(scene_.leaf);
     clock_.start("build");
     model_ = leaf::build_leaf(scene_.leaf, read_leaf_input(scene_));
+    leaf::require_edit(model_, scene_.leaf.edit);
     clock_.start("");
     console_.note(
         fmt::format("leaf of {} vertices, {:.1f} cm2", model_.flat.position_m.size(), model_.area_m2 * 1e4));

@@ -13,6 +13,7 @@ namespace {
 // A bright day with thin cloud: soft enough that neither the sun's patches nor the far corners are lost.
 const glm::dvec3 kSun{6.5, 5.8, 4.7};   // irradiance over pi of a surface that faces it
 const glm::dvec3 kSky{4.9, 5.4, 6.1};   // radiance
+constexpr double kDust_1_m = 0.030;      // scattering of the air at haze 1: a room in which rugs were beaten
 const glm::dvec3 kLamp{1.0, 0.89, 0.75};
 
 std::string rgb(const glm::dvec3& c) { return (Text() << "rgb" << c).str(); }
@@ -27,6 +28,27 @@ std::string glowing_text(const glm::dvec3& at, const glm::dvec3& a, const glm::d
     << "," << cells << " adaptive 1 JITTER() spotlight radius 35 falloff 90 tightness 1 point_at " << (at + toward) * unit
     << " fade_distance " << std::sqrt(area / (2 * 3.14159265)) * unit
     << " fade_power 2 media_interaction off media_attenuation off}\n";
+  return t.str();
+}
+
+/// Dust that the sun lights up. Only where its light can come in, a sheared box behind each window: the rest of the room need not be
+/// sampled, and there each sample asks the sun.
+std::string shafts_text(const RoomSceneInput& in, const std::vector<Wall>& walls, const glm::dvec3& toward, double unit) {
+  Text t;
+  for (const Wall& w : walls) {
+    if (glm::dot(glm::dvec3(w.out.x, 0, w.out.y), toward) < 0.01) continue;  // it looks away from the sun
+    for (const WallOpening& o : w.openings) {
+      if (o.kind != OpeningKind::window) continue;
+      const glm::dvec2 corner = w.a_m + w.along * o.a_m.x;
+      // From inside the glass down to below the floor.
+      const glm::dvec3 start(corner.x, o.sill_m, corner.y), across = glm::dvec3(w.along.x, 0, w.along.y) * (o.b_m.x - o.a_m.x),
+          down = -toward * ((o.sill_m + o.height_m + 0.05) / toward.y);
+      t << "box{0,1 hollow no_shadow no_reflection no_radiosity pigment{rgbt 1} interior{media{method 3 samples 10,10 jitter 0 scattering{5,rgb "
+        << kDust_1_m * in.haze / unit << " eccentricity 0.35}}} matrix<" << across.x * unit << "," << across.y * unit << ","
+        << across.z * unit << ",0," << o.height_m * unit << ",0," << down.x * unit << "," << down.y * unit << "," << down.z * unit << ","
+        << start.x * unit << "," << start.y * unit << "," << start.z * unit << ">}\n";
+    }
+  }
   return t.str();
 }
 
@@ -62,11 +84,7 @@ std::string room_light_text(const RoomSceneInput& in, const std::vector<Wall>& w
     t << glowing_text({mid.x, in.wall_height_m - 0.02, mid.y}, {size, 0, 0}, {0, 0, size}, {0, -1, 0.001},
                       kLamp * (in.lamps * 6.0), 3, unit);
   }
-  if (in.haze > 0)
-    t << "box{" << glm::dvec3(low.x - 0.2, -0.1, low.y - 0.2) * unit << ","
-      << glm::dvec3(high.x + 0.2, in.wall_height_m + 0.1, high.y + 0.2) * unit
-      << " hollow pigment{rgbt 1} interior{media{method 3 samples 24,24 jitter 0 scattering{5,rgb " << 0.030 * in.haze / unit
-      << " eccentricity 0.35}}}}\n";
+  if (in.haze > 0) t << shafts_text(in, walls, toward, unit);
   return t.str();
 }
 

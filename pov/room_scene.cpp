@@ -79,14 +79,20 @@ std::string textures_text(const RoomSceneInput& in) {
     << "#declare Steel=texture{pigment{rgb 0.10} finish{diffuse 0.8 ambient Fill specular 0.3 roughness 0.03}}\n"
     << "#declare Furniture=texture{pigment{wood turbulence 0.06 color_map{[0 rgb<0.30,0.185,0.095>][0.8 "
        "rgb<0.235,0.135,0.065>][1 rgb<0.20,0.11,0.05>]} scale <11,11,11> rotate <2,86,0>} finish{diffuse 1 ambient Fill "
-       "specular 0.12 roughness 0.03 reflection{0,0.25 fresnel on} conserve_energy}}\n";
+       "specular 0.12 roughness 0.03 reflection{0,0.25 fresnel on} conserve_energy}}\n"
+    << "#declare Chair=texture{pigment{rgb<0.115,0.058,0.030>} finish{diffuse 1 ambient Fill specular 0.18 roughness 0.02}}\n"
+    << "#declare Cabinet=texture{pigment{rgb<0.34,0.35,0.33>} finish{diffuse 0.95 ambient Fill specular 0.1 roughness 0.03}}\n"
+    << "#declare Screen=texture{pigment{rgb 0.022} finish{diffuse 1 ambient Fill specular 0.2 roughness 0.02 reflection{0,0.3 fresnel on} "
+       "conserve_energy}}\n"
+    << "#declare Paper=texture{pigment{rgb<0.80,0.79,0.75>} finish{diffuse 1 ambient Fill}}\n";
   return t.str();
 }
 
-std::string settings_text(bool film) {
+/// With haze a view passes in and out of several shafts of light before it comes to the wall: each counts as a level.
+std::string settings_text(bool film, bool haze) {
   Text t;
   t << "#version 3.7;\n#ifndef(QUALITY) #declare QUALITY=1; #end\n#default{finish{ambient 0 diffuse 1}}\n"
-    << "global_settings{assumed_gamma 1.0 max_trace_level 6";
+    << "global_settings{assumed_gamma 1.0 max_trace_level " << (haze ? 40 : 6);
   if (!film)
     t << "\n  radiosity{pretrace_start 0.08 pretrace_end (QUALITY=0?0.04:0.02) count (QUALITY=0?70:(QUALITY=1?120:300)) "
          "nearest_count 14 error_bound (QUALITY=2?0.5:0.9) recursion_limit 2 minimum_reuse 0.03 low_error_factor 0.8 "
@@ -117,7 +123,7 @@ std::filesystem::path write_room_scene(const std::filesystem::path& folder, cons
   Text t;
   t << head_text({in.still.width_px, in.still.height_px, in.still.exposure, "room", in.still.camera.aperture_m > 0, false},
                  stem)
-    << settings_text(in.film) << camera_text(in.still.camera, kUnit) << textures_text(in)
+    << settings_text(in.film, in.haze > 0) << camera_text(in.still.camera, kUnit) << textures_text(in)
     << floor_texture_text(files, in.look, area, kUnit) << height_field_text(files, area, kUnit);
   // Maps cover the box around the outline; what lies beyond the walls is cut away.
   if (in.outline_m.size() != 4 || std::abs(0.5 * std::abs(signed_area(in.outline_m)) - area.size_m().x * area.size_m().y) > 1e-6)

@@ -44,6 +44,12 @@ struct RoomObstacle {
   double height_m = 0.74;             ///< > 0; columns always reach the ceiling
 };
 
+/// A chair that stands where people go to; one sits looking to `facing_deg`, counter-clockwise from x.
+struct RoomSeat {
+  glm::dvec2 at_m{0.0};
+  double facing_deg = 90;
+};
+
 /// A framed canvas on the wall nearest to a point.
 struct WallPicture {
   glm::dvec2 at_m{0.0};
@@ -60,6 +66,7 @@ struct RoomSceneInput {
   glm::dvec3 wall_rgb{0.74, 0.70, 0.62};  ///< reflectance, linear, 0..0.95
   std::vector<WallOpening> openings;
   std::vector<RoomObstacle> obstacles;
+  std::vector<RoomSeat> seats;        ///< those within 1 m of a desk belong to it: its drawers are on their side
   std::vector<WallPicture> pictures;
   double haze = 0;    ///< dust in the air that shows the beams, 0 (none) .. 1
   double lamps = 0.9; ///< soft light from the ceiling, 0..10: fills dark corners

@@ -165,49 +165,6 @@ std::string walls_text(const RoomSceneInput& in, const std::vector<Wall>& walls,
 
 namespace {
 
-glm::dvec2 middle_of(const std::vector<glm::dvec2>& p) {
-  glm::dvec2 sum{0.0};
-  for (const glm::dvec2& q : p) sum += q / double(p.size());
-  return sum;
-}
-
-/// A top on square legs at the corners, drawn in by `in`; desks have a modesty panel along their longest edge.
-std::string table_text(const RoomObstacle& o, double thick, double leg, double in, double unit) {
-  const glm::dvec2 m = middle_of(o.outline_m);
-  Text t;
-  t << prism_text(o.outline_m, o.height_m - thick, o.height_m, unit) << " texture{Furniture}}\n";
-  for (const glm::dvec2& c : o.outline_m) {
-    const glm::dvec2 to = m - c, at = c + glm::dvec2(std::copysign(in, to.x), std::copysign(in, to.y));
-    t << "object{"
-      << box_text({at.x - leg / 2, -0.02, at.y - leg / 2}, {at.x + leg / 2, o.height_m - thick, at.y + leg / 2}, unit)
-      << " texture{" << (o.kind == ObstacleKind::desk ? "Steel" : "Furniture") << "}}\n";
-  }
-  return t.str();
-}
-
-}  // namespace
-
-std::string obstacles_text(const RoomSceneInput& in, double unit) {
-  Text t;
-  for (const RoomObstacle& o : in.obstacles) switch (o.kind) {
-      case ObstacleKind::column:
-        t << prism_text(o.outline_m, -0.05, in.wall_height_m + 0.05, unit) << " texture{WallPaint}}\n";
-        break;
-      case ObstacleKind::cabinet:
-        t << prism_text(o.outline_m, -0.05, o.height_m, unit) << " texture{Furniture}}\n";
-        break;
-      case ObstacleKind::bench:
-        t << table_text(o, 0.06, 0.07, 0.10, unit);
-        break;
-      case ObstacleKind::desk:
-        t << table_text(o, 0.028, 0.045, 0.05, unit);
-        break;
-    }
-  return t.str();
-}
-
-namespace {
-
 /// What is painted on a canvas: one of three abstract manners with colours of its own.
 std::string canvas_text(std::size_t number, double width, double height) {
   Random r(number + 11, Stream::colour, number);

@@ -24,6 +24,7 @@ inline constexpr double kWallThick_m = 0.30;
 std::vector<Wall> walls_of(const RoomSceneInput& input);
 
 std::string walls_text(const RoomSceneInput& input, const std::vector<Wall>& walls, double unit);
+/// Obstacles and seats (room_furniture.cpp).
 std::string obstacles_text(const RoomSceneInput& input, double unit);
 std::string pictures_text(const RoomSceneInput& input, const std::vector<Wall>& walls, double unit);
 

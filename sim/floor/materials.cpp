@@ -1,4 +1,4 @@
-// Floors by name. H and K: three-body wear with grit between sole and floor (Rabinowicz); K is good to a factor of
+// Floors by name. H and K: estimates, K by the order of three-body wear with grit between sole and floor (Rabinowicz 1995); K is good to a factor of
 // five. Hardness: Janka of oak 6 kN, of pine 1.9 kN, as pressure; stones by indentation. Gloss and colours: estimates by
 // eye against photographs.
 #include "sim/core/errors.hpp"

@@ -82,7 +82,7 @@ struct CrowdOptions {
   double clockwise_share = 0.5;        ///< of the patrols, 0..1; the others go counter-clockwise
   double women_share = 0.5;            ///< 0..1
   std::vector<std::pair<std::int64_t, std::int64_t>> absent;  ///< visits [first, last) that do not take place
-  Spread speed_men_m_s{1.41, 0.26, 0.6, 2.4}, speed_women_m_s{1.27, 0.26, 0.6, 2.2};  ///< free walking (Weidmann 1993)
+  Spread speed_men_m_s{1.41, 0.26, 0.6, 2.4}, speed_women_m_s{1.27, 0.26, 0.6, 2.2};  ///< free walking (Weidmann 1993; his sd of all people for each)
   double patrol_speed_factor = 0.6;    ///< people who look around are slower, 0.1..1
   Spread mass_men_kg{85.5, 14, 50, 140}, mass_women_kg{67.8, 11, 40, 120};            ///< ANSUR II
   Spread foot_men_m{0.271, 0.013, 0.235, 0.31}, foot_women_m{0.246, 0.012, 0.21, 0.28};
@@ -95,7 +95,7 @@ struct GaitOptions {
   double step_base_m = 0.4625, step_per_speed_s = 0.2345;  ///< step = base + per_speed * v + noise; 0.05..1, 0..1
   double step_sd_m = 0.036;            ///< cut off at 3 sd, 0..0.1
   Spread side_m{0.05, 0.012, 0.014, 0.086};                ///< foot centre to line of walking, d(t)
-  Spread toe_out_deg{7.5, 4, -4.5, 19.5};                  ///< phi(t), outward; Morton 1932
+  Spread toe_out_deg{7.5, 4, -4.5, 19.5};                  ///< phi(t), outward; mean: Morton 1932, sd: estimate
   double heading_sd_deg = 8;           ///< about the orientation field, cut off at 3 sd, 0..45
   double heading_memory_m = 1.2;       ///< way after which a deviation is forgotten, 0.1..20
   double turn_radius_m = 0.45;         ///< tightest walked curve, 0.05..2

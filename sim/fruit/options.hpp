@@ -26,9 +26,9 @@ struct WheatOptions {
   bool husks = true;                 ///< glumes and lemmas
   double gape_deg = 5;               ///< how far the ripe husks open, 0..30
   bool awns = true;
-  double awn_length_mm = 60;        ///< of the longest awns, 1..200 (measured 40..100)
-  double awn_root_radius_mm = 0.2;  ///< 0.02..2 (measured 0.15..0.3; the paper: 0.7)
-  double awn_tip_radius_mm = 0.02;  ///< 0.002..2, not above the root's (measured 0.02; the paper: 0.07)
+  double awn_length_mm = 60;        ///< of the longest awns, 1..200 (typically 40..100)
+  double awn_root_radius_mm = 0.2;  ///< 0.02..2 (typically 0.15..0.3; the paper: 0.7)
+  double awn_tip_radius_mm = 0.02;  ///< 0.002..2, not above the root's (typically 0.02; the paper: 0.07)
   double awn_start = 1;  ///< radii at wd = 0 over those at wd = 1: below 1 the awns thicken in time, 0.05..1
   double nod_deg = 14;   ///< how far the ripe ear's upper end hangs over sideways, 0..60
   double variation = 1;  ///< scale of the seeded differences between kernels, 0 (all alike)..2

@@ -15,7 +15,7 @@ struct Swelling {
   double length = 1, width = 1, thickness = 1;
 };
 /// 1 at 8.7 % water; + 5.1 % length, 9.7 % width, 6.7 % thickness at 28.1 % (Sirvinta wheat). Linear; beyond
-/// what was measured carried on to 50 %, where it comes within 4 % of measured green kernels of other wheats,
+/// what was measured carried on to 50 %, where it comes within 5 % of measured green kernels of other wheats,
 /// then constant.
 /// @param moisture_wb wet basis, 0..1.
 Swelling wheat_swelling(double moisture_wb);

@@ -8,7 +8,7 @@
 
 namespace witherfield::grass {
 
-/// Turgor pressure in MPa at relative water content w: max(0, -pi0 - eps (1 - w)) (Bartlett et al. 2012).
+/// Turgor pressure in MPa at relative water content w: max(0, -pi0 - eps (1 - w)) (loss point: Bartlett et al. 2012).
 double turgor_MPa(const TissueOptions& t, double water);
 /// How freely the shape flows: 0 at full turgor, 1 without, 0 again when dry (the shape is set). Drives creep and the paper's droop.
 double limpness(const TissueOptions& t, double water);

@@ -99,7 +99,7 @@ void validate_frames(const std::vector<double>& frames, const std::string& name,
 }  // namespace
 
 BladeOptions species_preset(const std::string& name) {
-  // Turf handbook dimensions: blade width and thickness, posture by growth habit.
+  // Typical turf dimensions (estimates): blade width and thickness, posture by growth habit.
   BladeOptions b;
   if (name == "perennial_ryegrass") return b;
   if (name == "kentucky_bluegrass") {

@@ -22,7 +22,7 @@ Logistic water_of(Climate climate) {
 }
 
 constexpr Logistic kChlorophyll{0.50, 0.09, 0.02};
-// One spot of one blade empties in about a week of a 60-day season: 10 to 90 % within 0.12 (Mattila et al. 2018).
+// One spot of one blade empties in about a week of a 60-day season: 10 to 90 % within 0.12 (Mattila et al. 2018, on trees).
 constexpr double kSpotSlope = 0.027;
 
 void require_fraction_curve(const Curve& curve, const char* what) {

@@ -1,4 +1,4 @@
-// Rotation-aware editing: as-rigid-as-possible with smooth rotations (Sorkine & Alexa 2007; Levi & Gotsman 2014), because
+// Rotation-aware editing: as-rigid-as-possible with smooth rotations (Sorkine & Alexa 2007; Levi & Gotsman 2015), because
 // the linear edit shears and swells where a leaf curls strongly.
 //
 //   E(x, R) = sum over directed edges ij  w_ij |x_i - x_j - R_i (p_i - p_j)|^2  +  (alpha A / 2) / n_i |R_i - R_j|^2

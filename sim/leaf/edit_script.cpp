@@ -113,15 +113,31 @@ void EditWalk::follow(std::span<const glm::dvec3> move, int iterations) {
   editor_->drag(now_);
 }
 
+namespace {
+
+void require_moves(const EditOptions& options) {
+  for (std::size_t k = 0; k < options.keys.size(); ++k)
+    if (options.keys[k].move_m.size() != options.handles.size())
+      throw InvalidInput("edit.keys[" + std::to_string(k) + "]: " + std::to_string(options.keys[k].move_m.size()) + " moves for " +
+                         std::to_string(options.handles.size()) + " handles");
+}
+
+}  // namespace
+
+void require_edit(const LeafModel& model, const EditOptions& options) {
+  if (options.keys.empty()) return;
+  require_moves(options);
+  LeafEditor editor(model.natural, options);
+  EditWalk(editor, options);
+}
+
 void run_edit(const LeafModel& model, const EditOptions& options, const std::function<void(const EditFrame&)>& sink) {
   if (options.keys.empty()) return;
+  require_moves(options);
   LeafEditor editor(model.natural, options);
   EditWalk walk(editor, options);
   for (std::size_t k = 0; k < options.keys.size(); ++k) {
     const EditKey& key = options.keys[k];
-    if (key.move_m.size() != options.handles.size())
-      throw InvalidInput("edit.keys[" + std::to_string(k) + "]: " + std::to_string(key.move_m.size()) + " moves for " +
-                         std::to_string(options.handles.size()) + " handles");
     walk.go(key.move_m);
     sink({int(k), &key, &editor.positions(), editor.report(), editor.iterations()});
   }

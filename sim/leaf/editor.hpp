@@ -73,6 +73,10 @@ struct EditFrame {
   int iterations = 0;
 };
 
+/// Throws what `run_edit` would, before anything is moved: a mesh that cannot be edited, handles that share a vertex, keys that do
+/// not move all handles. @throws InvalidInput naming the handle or the key.
+void require_edit(const LeafModel& model, const EditOptions& options);
+
 /// All keys of `options` on the model's natural pose, one after the other; calls `sink` for each.
 /// @throws InvalidInput as the editor does, naming the handle or the key.
 void run_edit(const LeafModel& model, const EditOptions& options, const std::function<void(const EditFrame&)>& sink);

@@ -21,7 +21,7 @@ struct HingeGradient {
 };
 
 /// d angle / d corner: a corner off the edge turns its triangle by its normal over its height; the edge's ends carry what keeps
-/// the sum of all four zero, split by the feet of the heights (Bridson, Marino, Fedkiw 2003, appendix).
+/// the sum of all four zero, split by the feet of the heights (Bridson, Marino, Fedkiw 2003).
 inline HingeGradient hinge_gradient(const glm::dvec3& i, const glm::dvec3& j, const glm::dvec3& k, const glm::dvec3& o) {
   const glm::dvec3 e = k - j;
   const glm::dvec3 n1 = glm::cross(e, i - j), n2 = glm::cross(o - j, e);

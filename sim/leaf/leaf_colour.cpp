@@ -18,7 +18,7 @@ glm::dvec3 k_over_s(const glm::dvec3& r) { return (1.0 - r) * (1.0 - r) / (2.0 *
 }  // namespace
 
 glm::dvec3 leaf_colour(double chlorophyll, double water) {
-  // Leaf without chlorophyll: dry long grass; green: a maize leaf's upper side (LOPEX) at about 42 ug/cm2; brown: oak leaf litter.
+  // Leaf without chlorophyll: dry long grass; green: a maize leaf's upper side (LOPEX), taken to hold 42 ug/cm2 (estimate); brown: oak leaf litter.
   const glm::dvec3 pale = k_over_s(from_levels(176, 160, 112)), green = k_over_s(from_levels(78, 98, 46));
   const glm::dvec3 brown = k_over_s(from_levels(122, 92, 60));
   const double w = std::clamp(water, 0.0, 1.0), dry = (1 - w) * (1 - w);

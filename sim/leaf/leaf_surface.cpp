@@ -79,6 +79,8 @@ WiltBody wilt_body(const LeafModel& m, const std::vector<glm::dvec3>& position) 
   }
   if (!m.veins.empty()) body.vein_frame_m = m.flat.position_m;
   body.clamp = m.base;
+  if (m.veins.empty())  // a mesh that was given: its veins are not known, but it lived by some
+    for (int v = 0; v < int(position.size()); ++v) body.inlet.push_back(v);
   body.petiole_m = m.petiole.line_m;
   body.petiole_radius_stem_m = m.petiole.radius_stem_m;
   body.petiole_radius_blade_m = m.petiole.radius_blade_m;

@@ -4,15 +4,15 @@
 
 namespace witherfield::leaf {
 
-/// P(w) = max(0, -pi_0 - epsilon (1 - w)) (Bartlett et al. 2012), MPa.
+/// P(w) = max(0, -pi_0 - epsilon (1 - w)) (loss point: Bartlett et al. 2012; taken as linear), MPa.
 double turgor_MPa(const WiltTissueOptions& t, double water);
 /// w below which there is none: 1 + pi_0 / epsilon (at least 0).
 double turgor_loss_point(const WiltTissueOptions& t);
 /// (P / P(1))^exponent, 0..1: what turgor adds to the stiffness.
 double turgor_stiffening(const WiltTissueOptions& t, double water);
 
-/// Below the turgor-loss point cells go on collapsing and parenchyma goes on softening (Niklas 1988: 19 to 1.2 MPa from -0.4 to
-/// -1.4 MPa water potential): factor on the limp moduli, 1 .. 0.2. Without it a drying leaf would rise as it gets lighter.
+/// Below the turgor-loss point cells go on collapsing and parenchyma goes on softening (as potato pith does, Niklas 1988: 19 to 1.2 MPa from -0.4 to
+/// -1.4 MPa water potential): factor on the limp moduli, 1 .. 0.2 (estimate). Without it a drying leaf would rise as it gets lighter.
 double limp_softening(const WiltTissueOptions& t, double water);
 
 double blade_bending_MPa(const WiltTissueOptions& t, double water);

@@ -87,6 +87,7 @@ struct LeafWater::Impl {
   WiltOptions options;
   Curve supply;
   std::size_t vertices = 0;
+  bool fine_veins = false;               ///< finer than the mesh: they feed every vertex of the inlet
   std::vector<double> water, capacity_kg, transpiring_kg_s, entry_kg_s;
   struct Link {
     int a, b;
@@ -114,18 +115,25 @@ struct LeafWater::Impl {
     }
     std::vector<Entry> g = conductances(body, w);
     entry_kg_s.assign(vertices + rod.size(), 0.0);
-    if (rod.empty()) {
-      for (const int v : body.clamp) entry_kg_s[std::size_t(v)] = w.petiole_conductance_kg_s / double(body.clamp.size());
-    } else {
-      add_petiole(body, rod, radius, g);
-    }
+    fine_veins = !body.inlet.empty();
+    const std::vector<int>& fed = fine_veins ? body.inlet : body.clamp;
+    double fed_m2 = 0;
+    for (const int v : fed) fed_m2 += area[std::size_t(v)];
+    std::vector<Entry> shares;  // row = vertex; value: of the water
+    for (const int v : fed) shares.push_back({v, 0, fine_veins ? area[std::size_t(v)] / fed_m2 : 1.0 / double(fed.size())});
+    if (rod.empty())
+      for (const Entry& s : shares) entry_kg_s[std::size_t(s.row)] = w.petiole_conductance_kg_s * s.value;
+    else
+      add_petiole(shares, rod, radius, g);
     finish(g);
   }
 
-  void add_petiole(const WiltBody& body, const std::vector<glm::dvec3>& rod, const std::vector<double>& radius,
+  void add_petiole(const std::vector<Entry>& fed, const std::vector<glm::dvec3>& rod, const std::vector<double>& radius,
                    std::vector<Entry>& g) {
     const WiltWaterOptions& w = options.water;
-    // In series: half of the resistance where the water enters the petiole, half along it; a free way into the blade.
+    // In series: half of the resistance where the water enters the petiole, half along it; a free way into the blade, where the
+    // curves resist, or as much again where veins do that the mesh does not show (estimate; the leaf is a substantial part of
+    // a plant's resistance: Sack & Holbrook 2006).
     const double along = 2 * w.petiole_conductance_kg_s * double(rod.size() - 1);
     for (std::size_t k = 0; k < rod.size(); ++k) {
       double length = 0;
@@ -136,7 +144,8 @@ struct LeafWater::Impl {
       if (k > 0) g.push_back({int(vertices + k - 1), int(vertices + k), along});
     }
     entry_kg_s[vertices] = 2 * w.petiole_conductance_kg_s;
-    for (const int v : body.clamp) g.push_back({v, int(vertices + rod.size() - 1), 1e3 * w.petiole_conductance_kg_s});
+    const int end = int(vertices + rod.size() - 1);
+    for (const Entry& f : fed) g.push_back({f.row, end, w.petiole_conductance_kg_s * (fine_veins ? f.value : 1e3)});
   }
 
   void finish(const std::vector<Entry>& g) {
@@ -163,8 +172,9 @@ struct LeafWater::Impl {
     std::vector<double> rhs(water.size()), loss(water.size());
     std::fill(system.value.begin(), system.value.end(), 0.0);
     for (const Link& l : links) {
-      const bool in_blade = std::size_t(l.a) < vertices && std::size_t(l.b) < vertices;
-      const double flow = dt * l.kg_s * (in_blade ? conductance((water[std::size_t(l.a)] + water[std::size_t(l.b)]) / 2) : 1.0);
+      const bool in_blade = std::size_t(l.b) < vertices, into_blade = fine_veins && std::size_t(l.a) < vertices;
+      const double wet = water[std::size_t(l.a)];
+      const double flow = dt * l.kg_s * (in_blade ? conductance((wet + water[std::size_t(l.b)]) / 2) : into_blade ? conductance(wet) : 1.0);
       system.value[std::size_t(l.slot_ab)] -= flow;
       system.value[std::size_t(l.slot_ba)] -= flow;
       system.value[std::size_t(diagonal[std::size_t(l.a)])] += flow;

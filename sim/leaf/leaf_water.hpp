@@ -3,7 +3,7 @@
 //   c_i dw_i/dt = sum_j G_ij (w_j - w_i) + supply_i - a_i e(w_i)      w = relative water content, c_i = water at full turgor, kg
 // On the blade G is the cotangent operator, with more along the veins; on the petiole a chain. Backward Euler, one linear
 // solve a step: the transpiration is written as g(w_old) w_new, which keeps w within 0..1 for any step. Conductances of blade and
-// veins fall with turgor (those of the last step count): leaves that dry lose most of them (Scoffoni et al. 2012).
+// veins fall with turgor (those of the last step count): leaf hydraulic conductance declines as leaves dry (Scoffoni et al. 2012); how much is an estimate.
 #pragma once
 #include <memory>
 #include <span>

@@ -88,7 +88,7 @@ struct LeafOptions {
   LeafSource source = LeafSource::veins;
   std::string species = "cucumber";  ///< cucumber, watermelon: proportions of the veins and habit of the margin
   double main_vein_m = 0.15;         ///< length of the main vein, 0.01..1
-  double variation = 0.5;            ///< share of the measured intervals of ratios and angles that is drawn from, 0..1
+  double variation = 0.5;            ///< share of the reconstructed intervals of ratios and angles that is drawn from, 0..1
   double asymmetry = 0.5;            ///< 0: both halves alike, 1: drawn apart
   std::string points_file;           ///< source = points: CSV or JSON, read by the caller; source = veins: see LeafInput
   std::string mesh_file;             ///< source = mesh: OBJ or PLY, read by the caller

@@ -19,6 +19,8 @@ struct WiltBody {
   std::vector<VeinCurve> veins;     ///< ribs; number 0 is the main vein, whose length is reported; may be empty
   std::vector<glm::dvec3> vein_frame_m;  ///< other positions of the same vertices in which the curves are given (the flat blade); empty = rest
   std::vector<int> clamp;           ///< vertices of the blade that are held: by the petiole's end, or in space when there is none
+  std::vector<int> inlet;           ///< vertices that the petiole feeds, each by its share of their area, through veins finer than the mesh;
+                                    ///< empty = the clamped ones, from which the curves lead on
   std::vector<glm::dvec3> petiole_m;     ///< centre line from the stem (clamped) to the blade; empty = none
   double petiole_radius_stem_m = 0, petiole_radius_blade_m = 0;
   bool rest_carries_weight = true;  ///< true: the natural pose is in equilibrium under its weight at full turgor;

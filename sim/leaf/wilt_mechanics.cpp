@@ -115,7 +115,7 @@ struct WiltMechanics::Impl {
       }
       material[k] = {blade_membrane_MPa(t, w) * 1e6, blade_bending_MPa(t, w) * 1e6, thickness_m(t, w), t.poisson,
                      shrink_strain(t, w, v), shrink_curvature_1_m(t, w, v), vein_modulus_MPa(t, w) * 1e6, t.compression_share,
-                     t.vein_turgid_MPa * 1e6, shrink_strain(t, w, 1)};  // fibres carry the length of a vein, turgid or not (Vincent 1982)
+                     t.vein_turgid_MPa * 1e6, shrink_strain(t, w, 1)};  // fibres carry the length of a vein, turgid or not (Vincent 1982: they carry it in grasses)
     }
     for (const RibPiece& r : ribs.pieces) {
       const auto& c = patches[std::size_t(r.triangle)].corner;

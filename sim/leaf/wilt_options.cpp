@@ -125,6 +125,8 @@ void validate(const WiltBody& b) {
                        std::to_string(n) + " vertices");
   for (const int v : b.clamp)
     if (v < 0 || v >= int(n)) throw InvalidInput("WiltBody: clamp names vertex " + std::to_string(v) + " of " + std::to_string(n));
+  for (const int v : b.inlet)
+    if (v < 0 || v >= int(n)) throw InvalidInput("WiltBody: inlet names vertex " + std::to_string(v) + " of " + std::to_string(n));
   if (b.clamp.size() < 3)
     throw InvalidInput("WiltBody: at least 3 vertices of the blade must be held (clamp), not " + std::to_string(b.clamp.size()));
   for (std::size_t i = 0; i < b.veins.size(); ++i) {

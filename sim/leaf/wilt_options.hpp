@@ -1,5 +1,5 @@
 // What the wilting simulation is told: time, water, tissue, mechanics. Default, unit and range on every field.
-// Relative water content (RWC) is 1 at full turgor, 0 when dry. Sources of the figures: docs/physics.md.
+// Relative water content (RWC) is 1 at full turgor, 0 when dry. Sources: docs/physics.md; figures without one there are estimates.
 #pragma once
 #include <utility>
 #include <vector>

@@ -38,10 +38,10 @@ void describe_wheat(KeyVisitor& v, WheatOptions& w) {
   v.flag({"husks", "Glumes and lemmas around the kernels"}, w.husks);
   v.number({"gape_deg", "How far the ripe husks open"}, w.gape_deg, {0, 30, "deg"});
   v.flag({"awns", "The bristles of bearded wheat"}, w.awns);
-  v.number({"awn_length_mm", "Of the longest awns; measured 40 to 100"}, w.awn_length_mm, mm(1, 200));
-  v.number({"awn_root_radius_mm", "Measured 0.15 to 0.3; Liu et al. 2007: 0.7"}, w.awn_root_radius_mm,
+  v.number({"awn_length_mm", "Of the longest awns; typically 40 to 100"}, w.awn_length_mm, mm(1, 200));
+  v.number({"awn_root_radius_mm", "Typically 0.15 to 0.3; Liu et al. 2007: 0.7"}, w.awn_root_radius_mm,
            mm(0.02, 2));
-  v.number({"awn_tip_radius_mm", "Measured 0.02; Liu et al. 2007: 0.07"}, w.awn_tip_radius_mm, mm(0.002, 2));
+  v.number({"awn_tip_radius_mm", "Typically 0.02; Liu et al. 2007: 0.07"}, w.awn_tip_radius_mm, mm(0.002, 2));
   v.number({"awn_start", "Radii of the awns at wd 0 over those at wd 1: below 1 they thicken in time"},
            w.awn_start, {0.05, 1});
   v.number({"nod_deg", "How far the ripe ear hangs over sideways"}, w.nod_deg, {0, 60, "deg"});

@@ -28,7 +28,7 @@ void describe_top(KeyVisitor& v, LeafScene& s) {
          o.source, kSources);
   v.number({"main_vein_m", "Length of the main vein: the one number that the veins' proportions need"},
            o.main_vein_m, {0.01, 1, "m"});
-  v.number({"variation", "Share of the measured intervals of ratios and angles that is drawn from"},
+  v.number({"variation", "Share of the reconstructed intervals of ratios and angles that is drawn from"},
            o.variation, {0, 1});
   v.number({"asymmetry", "0: both halves alike, 1: drawn apart"}, o.asymmetry, {0, 1});
   v.text({"points",

@@ -235,7 +235,7 @@ class Window(ProgramTest):
     def test_dragging_an_outline_point_rebuilds_the_leaf(self):
         self.open()
         self.screen.key("Tab")
-        area = float(self.title_holds(r"outline points: (\d+\.\d+) cm2").group(1))
+        area = self.area()
         self.wait_for(lambda: self.green(self.screen.shot()).sum() > 300, "the points of the outline")
         flat = self.still()
         g = self.green(flat)
@@ -245,16 +245,73 @@ class Window(ProgramTest):
         near = g & (np.hypot(*np.meshgrid(np.arange(g.shape[1]) - x[k], np.arange(g.shape[0]) - y[k])) < 14)
         at = self.middle(near, "marker")
         self.screen.drag(at, (at[0] + 60, at[1]))
-        grown = float(self.title_holds(r"\*.*outline points: (\d+\.\d+) cm2").group(1))
-        self.wait_for(lambda: float(re.search(r"points: (\d+\.\d+)", self.screen.title()).group(1)) > area * 1.01, "a larger leaf")
+        self.wait_for(lambda: self.area() > area * 1.01, "a larger leaf")
         wider = self.still()
-        self.assertGreater(self.leaf(wider).sum(), self.leaf(flat).sum() * 1.005, (area, grown))
+        self.assertGreater(self.leaf(wider).sum(), self.leaf(flat).sum() * 1.005)
         self.screen.key("s")
         self.wait_for(lambda: (self.folder / "leaf_edited.toml").exists(), "the saved scene")
         self.assertTrue((self.folder / "leaf_edited_points.csv").exists())
         self.screen.key("Control_L", "z")
-        self.title_holds(r"points: %.1f cm2" % area)
+        self.title_holds(r"; %.1f cm2" % area)
         self.looks_like(flat, 60)
+
+    def test_points_are_made_on_the_curve_and_removed(self):
+        self.open()
+        self.screen.key("Tab")
+        count = int(self.title_holds(r"outline (\d+), midrib").group(1))
+        area = self.area()
+        self.wait_for(lambda: self.green(self.screen.shot()).sum() > 300, "the points of the outline")
+        flat = self.still()
+        green = self.green(flat)
+        balls = green
+        for _ in range(2):  # lines are thin
+            balls = balls & np.roll(balls, 1, 0) & np.roll(balls, -1, 0) & np.roll(balls, 1, 1) & np.roll(balls, -1, 1)
+        by, bx = np.nonzero(balls)
+        y, x = np.nonzero(green)
+        free = np.array([np.hypot(bx - u, by - v).min() for u, v in zip(x, y)])
+        k = np.argmax(free)
+        self.assertGreater(free[k], 16)
+        mx, my = self.middle(self.leaf(flat), "leaf")
+        away = np.array([x[k] - mx, y[k] - my]) / np.hypot(x[k] - mx, y[k] - my)
+        at = float(x[k]), float(y[k])
+        self.screen.drag(at, (at[0] + 30 * away[0], at[1] + 30 * away[1]))  # made and taken along at once
+        self.title_holds(r"outline %d, midrib" % (count + 1))
+        self.wait_for(lambda: self.area() > area * 1.001, "a larger leaf")
+        self.screen.key("Delete")  # it is selected
+        self.title_holds(r"outline %d, midrib" % count)
+        self.wait_for(lambda: abs(self.area() - area) < 0.11, "the leaf as it was")
+        self.screen.key("Control_L", "z")
+        self.screen.key("Control_L", "z")
+        self.title_holds(r"outline %d, midrib" % count)
+        self.looks_like(flat, 60)
+
+    def test_dragging_the_midrib_bends_the_leaf(self):
+        self.open()
+        self.screen.key("Tab")
+        self.title_holds("midrib [3-9]")
+        flat = self.still()
+        r, g, b = (flat[:, :, k] for k in range(3))
+        violet = (b > 120) & (g < 0.75 * r) & (r < 0.95 * b)
+        violet[:, SIZE[0]:] = violet[SIZE[1]:] = False
+        y, x = np.nonzero(violet)
+        # The point at the tip: the end of the midrib that is farther from the handle side, to the right of the flat leaf.
+        k = np.argmax(x)
+        near = violet & (np.hypot(*np.meshgrid(np.arange(violet.shape[1]) - x[k], np.arange(violet.shape[0]) - y[k])) < 14)
+        at = self.middle(near, "marker at the tip")
+        area = self.area()
+        self.screen.drag(at, (at[0] + 40, at[1]))
+        self.wait_for(lambda: self.area() > area * 1.005, "a longer leaf")
+        longer = self.still()
+        self.assertGreater(self.pixels_changed(flat, longer), 2000)
+        self.screen.key("Tab")
+        self.title_holds("handles: ")
+        self.screen.key("Tab")
+        self.screen.key("Control_L", "z")
+        self.title_holds(r"; %.1f cm2" % area)
+        self.looks_like(flat, 60)
+
+    def area(self):
+        return float(self.title_holds(r"points: outline \d+, midrib \d+; (\d+\.\d+) cm2").group(1))
 
     def green(self, shot):
         r, g, b = (shot[:, :, k] for k in range(3))

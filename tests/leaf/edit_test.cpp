@@ -251,7 +251,9 @@ TEST(RotationAwareEdit, HandlesEndOnTheirTargetsAndIterationsLeadToTheMinimum) {
       energies.push_back(editor.energy());
     }
     for (std::size_t k = 1; k < energies.size(); ++k) EXPECT_LE(energies[k], energies[k - 1] * (1 + 1e-9)) << share;
-    if (share < 0.2) EXPECT_NEAR(energies[2], energies[3], 0.001 * energies[3]);
+    if (share < 0.2) {
+      EXPECT_NEAR(energies[2], energies[3], 0.001 * energies[3]);
+    }
     EXPECT_NEAR(energies[3], energies[4], 1e-6 * energies[4]) << share;
   }
   // A minimum: pushing any free vertex about costs energy.

@@ -126,6 +126,34 @@ TEST(LeafWater, AWateredLeafKeepsItsTurgorAndACutOneDriesFromTheMargin) {
   EXPECT_GT(vein / veins, blade / blades + 0.02);
 }
 
+TEST(LeafWater, AMeshWithoutVeinsLivesByVeinsFinerThanItself) {
+  LeafOptions o;
+  o.source = LeafSource::mesh;
+  const WiltBody sheet = test::strip(0.15, 0.12, 30, 24);
+  LeafInput input;
+  input.mesh = sheet.rest;
+  WiltBody body = wilt_body(build_leaf(o, input));
+  ASSERT_TRUE(body.veins.empty());
+  const Rod rod = rod_of(body);
+  WiltOptions w;
+  w.water.margin_gain = 0;
+  w.water.supply_curve = {{0, 1}, {100, 1}};
+  LeafWater watered(body, rod.line, rod.radius, w);
+  watered.advance_to(24);
+  // Steady: transpiration times the resistances of petiole and blade, alike everywhere.
+  const double loss_kg_s = 0.15 * 0.12 * w.water.transpiration_kg_m2_s * transpiration_share(w.tissue, w.water.cuticular_share, watered.mean_blade());
+  EXPECT_NEAR(1 - watered.mean_blade(), 2 * loss_kg_s / w.water.petiole_conductance_kg_s, 0.002);
+  EXPECT_NEAR(lowest(watered.blade()), highest(watered.blade()), 1e-6);
+  EXPECT_LT(watered.balance().error(watered.start_kg()), 1e-9);
+
+  w.water.supply_curve = {};
+  w.water.margin_gain = 0.5;
+  LeafWater cut(body, rod.line, rod.radius, w);
+  cut.advance_to(5);
+  EXPECT_LT(cut.mean_blade(), turgor_loss_point(w.tissue));
+  EXPECT_LT(lowest(cut.blade()), highest(cut.blade()) - 0.05);  // the margin first
+}
+
 TEST(LeafWater, RewateringRefills) {
   const WiltBody body = small_leaf();
   const Rod rod = rod_of(body);

@@ -40,6 +40,7 @@ struct RoomSceneTest : testing::Test {
     room.outline_m = {{0, 0}, {3, 0}, {3, 2}, {0, 2}};
     room.openings = {{OpeningKind::door, {0.5, 0}, {1.4, 0}, 0, 2.03}, {OpeningKind::window, {3, 0.5}, {3, 1.5}, 0.8, 1.2}};
     room.obstacles = {{ObstacleKind::desk, {{1, 1}, {1.6, 1}, {1.6, 1.4}, {1, 1.4}}, 0.74}};
+    room.seats = {{{1.3, 0.75}, 90}};
     room.pictures = {{{1.5, 2}, 0.8, 0.5, 1.5}};
     room.still.name = "small";
     room.still.width_px = 32;

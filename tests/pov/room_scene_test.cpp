@@ -161,6 +161,35 @@ std::string message_of(Write write) {
   return "";
 }
 
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
+TEST_F(RoomSceneTest, HazeIsOnlyBehindWindowsThatTheSunReaches) {
+  const auto shafts = [&] { return count(read_file(write_room_scene(folder, room)), "scattering{"); };
+  EXPECT_EQ(shafts(), 0u);
+  room.haze = 0.5;
+  EXPECT_EQ(shafts(), 1u);  // the door lets no light in
+  room.openings.push_back({OpeningKind::window, {3, 1.6}, {3, 1.9}, 0.8, 1.2});
+  EXPECT_EQ(shafts(), 2u);
+  room.still.sun.azimuth_deg = 190;
+  EXPECT_EQ(shafts(), 0u);
+}
+
+TEST_F(RoomSceneTest, ADeskIsFurnishedOnTheSideOfItsSeat) {
+  const auto drawers = [&] { return count(read_file(write_room_scene(folder, room)), "texture{Cabinet}"); };
+  EXPECT_EQ(drawers(), 4u);  // a body and three fronts
+  room.seats = {{{1.3, 1.65}, -90}};
+  EXPECT_EQ(drawers(), 4u);
+  room.seats = {{{2.6, 0.2}, 90}};  // of another place
+  EXPECT_EQ(drawers(), 0u);
+  room.seats.clear();
+  EXPECT_EQ(drawers(), 0u);
+  EXPECT_EQ(count(read_file(folder / "small_room.pov"), "texture{Chair}"), 0u);
+}
+
 TEST_F(RoomSceneTest, BadInputIsNamed) {
   const auto expect = [&](const RoomSceneInput& in, const char* words) {
     const std::string m = message_of([&] { write_room_scene(folder, in); });
