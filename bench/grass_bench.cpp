@@ -195,8 +195,9 @@ void points_to_texel_and_store(benchmark::State& state) {
       [&] {
         splat_points(p, c.shape, c.options.points.kernel_sigma_voxels, out);
         const TexelGrid::Box box = out.occupied_box();
-        vis::write_texel_vti(folder / "texel.vti", out, {box.lo, box.hi}, false, {18, 0.3});
-        vis::write_texel_vti(folder / "optics.vti", out, {box.lo, box.hi}, true, {18, 0.3});
+        const vis::TexelPlan plan(out, {box.lo, box.hi});
+        vis::write_texel_vti(folder / "texel.vti", plan, false, {18, 0.3});
+        vis::write_texel_vti(folder / "optics.vti", plan, true, {18, 0.3});
       });
   std::filesystem::remove_all(folder);
 }

@@ -85,10 +85,12 @@ void FrameWriter::write(const grass::GrassFrame& frame) {
   };
   const bool all = frame.variant == 0 || output_.other_variants == "all";
   const auto merge = [&](const vis::ValueRanges& ranges) { vis::merge_ranges(r.ranges, ranges); };
-  if (output_.fields && (all || output_.other_variants == "fields"))
-    merge(vis::write_texel_vti(add("texel", "vti"), *frame.texel, box_, false, stamp, compression));
-  if (output_.optics && all)
-    merge(vis::write_texel_vti(add("optics", "vti"), *frame.texel, box_, true, stamp, compression));
+  const bool fields = output_.fields && (all || output_.other_variants == "fields"), optics = output_.optics && all;
+  if (fields || optics) {
+    const vis::TexelPlan plan(*frame.texel, box_);
+    if (fields) merge(vis::write_texel_vti(add("texel", "vti"), plan, false, stamp, compression));
+    if (optics) merge(vis::write_texel_vti(add("optics", "vti"), plan, true, stamp, compression));
+  }
   if (output_.points && all) merge(vis::write_points_vtp(add("points", "vtp"), *frame.points, stamp, compression));
   if (output_.blades && all)
     merge(vis::write_surface_vtp(add("blades", "vtp"), pov::blade_surface(*frame.blades, {}), stamp, "mm", compression));

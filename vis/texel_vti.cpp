@@ -151,12 +151,25 @@ void merge_ranges(ValueRanges& into, const ValueRanges& from) {
   }
 }
 
-ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelGrid& grid, const VoxelBox& box,
-                            bool optics, const Stamp& stamp, Compression compression) {
-  check_box(box, grid.shape());
-  const PackedVoxels voxels(grid);
-  const BlockPlan plan(BleedMap(voxels), box);
-  XmlDocument document = image_document(grid.shape(), box);
+struct TexelPlan::Parts {
+  Parts(const TexelGrid& grid, const VoxelBox& b) : box((check_box(b, grid.shape()), b)), voxels(grid), plan(BleedMap(voxels), box) {}
+  VoxelBox box;
+  PackedVoxels voxels;
+  BlockPlan plan;
+};
+
+TexelPlan::TexelPlan(const TexelGrid& grid, const VoxelBox& box) : parts_(std::make_unique<const Parts>(grid, box)) {}
+TexelPlan::~TexelPlan() = default;
+
+ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelGrid& grid, const VoxelBox& box, bool optics,
+                            const Stamp& stamp, Compression compression) {
+  return write_texel_vti(file, TexelPlan(grid, box), optics, stamp, compression);
+}
+
+ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelPlan& texel, bool optics, const Stamp& stamp,
+                            Compression compression) {
+  const auto& [box, voxels, plan] = texel.parts();
+  XmlDocument document = image_document(voxels.grid().shape(), box);
   document.compression = compression;
   std::vector<TexelField> fields;
   std::vector<TexelChannel> channels;

@@ -4,6 +4,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,21 @@ struct VoxelBox {
 /// @throws IoFailure naming the file (cannot create, disk full).
 ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelGrid& grid, const VoxelBox& box,
                             bool optics, const Stamp& stamp, Compression compression = Compression::lz4);
+
+/// Which voxels of a grid go where in a file. Worked out once, it serves both files of a key frame.
+class TexelPlan {
+ public:
+  /// @param grid outlives the plan. @throws InvalidInput as write_texel_vti.
+  TexelPlan(const TexelGrid& grid, const VoxelBox& box);
+  ~TexelPlan();
+  struct Parts;
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  std::unique_ptr<const Parts> parts_;
+};
+ValueRanges write_texel_vti(const std::filesystem::path& file, const TexelPlan& plan, bool optics, const Stamp& stamp,
+                            Compression compression = Compression::lz4);
 
 /// All point fields plus mass_kg, velocity_m_s, radius_m (scalar), as vertices, millimetres.
 ValueRanges write_points_vtp(const std::filesystem::path& file, const PointSet& points, const Stamp& stamp,
