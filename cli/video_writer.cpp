@@ -78,11 +78,12 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
   messages_ = pipe_ends[0];
   try {
     // Quality 16: no visible loss; slow fades in dark corners are what x264 would else save on. bt709 both ways, so
-    // that players undo exactly what was done.
+    // that players undo exactly what was done. No picture is coded anew on the way: where everything stands still but a slow
+    // fade, each new start would show as a pulse (0.7 levels in the mean, up to 14).
     child_ = start({"-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", width, height), "-r",
                     fmt::format("{}", frames_per_s), "-i", "pipe:0", "-an", "-vf",
                     "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p",
-                    "-c:v", "libx264", "-preset", "medium", "-crf", "16", "-colorspace", "bt709", "-color_primaries",
+                    "-c:v", "libx264", "-preset", "medium", "-crf", "16", "-g", "100000", "-colorspace", "bt709", "-color_primaries",
                     "bt709", "-color_trc", "iec61966-2-1", "-movflags", "+faststart", "-f", "mp4", part_.string()},
                    pair[1], pipe_ends[1]);
   } catch (...) {

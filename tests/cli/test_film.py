@@ -133,6 +133,15 @@ class Film(ProgramTest):
         self.assertEqual(sorted(p.name for p in film.parent.iterdir()), ["worn.json", "worn.mp4"])
 
     @needs("povray", "ffmpeg")
+    @needs("povray", "ffmpeg", "ffprobe")
+    def test_only_the_first_frame_is_coded_anew(self):
+        self.good("run", self.scene(FLOOR))
+        self.good("film", "out/room", "--seconds", "12", "--size", "48x28", "--quality", "draft", "--blend-bound", "20")
+        out = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "frame=pict_type", "-of", "csv=p=0",
+                              self.folder / "out/room/film/worn.mp4"], capture_output=True, text=True, check=True).stdout
+        types = [line.strip(",") for line in out.split()]
+        self.assertEqual((len(types), types[0], types.count("I")), (300, "I", 1))
+
     def test_a_bound_that_is_broken_is_an_error_and_the_frames_stay(self):
         self.good("run", self.scene(FLOOR))
         tiny = ["film", "out/room", "--seconds", "0.4", "--size", "48x28", "--quality", "draft", "--blend-bound", "20"]
