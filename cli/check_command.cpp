@@ -13,7 +13,7 @@
 namespace witherfield::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "\nA mesh passes when it is manifold, its faces agree in orientation, none is degenerate or there\n"
     "twice, no shell cuts itself, and every vertex is used and finite. Open shells (a leaf) are allowed\n"
     "unless --closed; shells may run into each other (kernels on a cob) unless --max-overlap.\n"
@@ -27,7 +27,7 @@ constexpr const char* kFooter =
     "\nExit codes: 0 all passed, 1 a mesh failed, 2 a mesh is damaged or of unknown kind, 3 a file\n"
     "cannot be opened.";
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> files;
   CheckDemands demands;
   double max_overlap = -1;
@@ -52,7 +52,7 @@ void conclude(const std::vector<MeshFindings>& meshes) {
   throw Error(fmt::format("{} of {} meshes failed: '{}' has {}", failed, meshes.size(), first->file, why), 1);
 }
 
-void run(Options& o) {
+void run(CheckOptions& o) {
   o.demands.self_intersections = !o.no_self_intersections;
   if (o.max_overlap >= 0) o.demands.max_overlap = o.max_overlap;
   std::vector<MeshFindings> meshes;
@@ -69,9 +69,9 @@ void run(Options& o) {
 }  // namespace
 
 void add_check_command(CLI::App& app, const bool&) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CheckOptions>();
   CLI::App* c = app.add_subcommand("check", "Is a mesh sound? Any OBJ, PLY, OFF, STL or VTP");
-  c->footer(kFooter);
+  c->footer(kCheckFooter);
   c->add_option("MESH", o->files, "Mesh files: .obj, .ply, .off, .stl, .vtp")->required();
   c->add_flag("--json", o->json, "Everything as JSON on standard output, with the ids of what is wrong");
   c->add_flag("--closed", o->demands.closed, "Fail unless every shell is closed and faces outward");

@@ -13,7 +13,7 @@
 namespace witherfield::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kEditFooter =
     "\nSaving writes NAME_edited.toml beside the scene (or the file of -o), the leaf as .obj and .vtp and,\n"
     "when the outline was changed, its points as .csv. `witherfield run` makes the same leaf of the saved\n"
     "scene; its comments and other keys stay as they were. Nothing is ever asked.\n"
@@ -36,12 +36,12 @@ std::string keys_and_mouse() {
   return text;
 }
 
-struct Options {
+struct EditOptions {
   EditRequest request;
   std::string scene, output, size;
 };
 
-void run(Options& o, const bool& quiet) {
+void run(EditOptions& o, const bool& quiet) {
   Console console(quiet);
   o.request.scene_file = o.scene;
   o.request.target = o.output.empty() ? edited_name(o.scene) : std::filesystem::path(o.output);
@@ -53,9 +53,9 @@ void run(Options& o, const bool& quiet) {
 }  // namespace
 
 void add_edit_command(CLI::App& app, const bool& quiet) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<EditOptions>();
   CLI::App* c = app.add_subcommand("edit", "Shape a leaf by hand, in a window");
-  c->footer(keys_and_mouse() + kFooter);
+  c->footer(keys_and_mouse() + kEditFooter);
   c->add_option("LEAF", o->scene, "Scene file of kind \"leaf\"")->required();
   c->add_option("-o,--output", o->output, "Scene file to save to; the mesh is saved beside it")->type_name("SCENE.toml");
   c->add_option("--size", o->size, "Size of the window in pixels [1280x800]")->type_name("WxH");

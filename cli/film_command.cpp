@@ -12,7 +12,7 @@
 namespace witherfield::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kFilmFooter =
     "\nExamples:\n"
     "  witherfield film out/patrol_gallery --size 640x360          30 s, 25 frames a second: film/gallery_worn.mp4\n"
     "  witherfield film out/patrol_gallery --size 320x180 --seconds 6 --quality draft      a quick look\n"
@@ -31,12 +31,12 @@ constexpr const char* kFooter =
     "Ctrl-C leaves the rendered key pictures in film/NAME_keys; --resume goes on with them.\n"
     "film/NAME.json tells keys, errors and differences. Needs povray and ffmpeg (Debian packages of these names).";
 
-struct Options {
+struct FilmOptions {
   std::string folder, scene, look, size, quality = "good", pace = "even", strip;
   FilmRequest request;
 };
 
-void film(Options& o, const bool& quiet) {
+void film(FilmOptions& o, const bool& quiet) {
   FilmRequest& r = o.request;
   r.folder = o.folder;
   r.scene = o.scene;
@@ -62,10 +62,10 @@ void film(Options& o, const bool& quiet) {
 }  // namespace
 
 void add_film_command(CLI::App& app, const bool& quiet) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<FilmOptions>();
   FilmRequest& r = o->request;
   CLI::App* c = app.add_subcommand("film", "A film of a run: .mp4 from its first key frame to its last");
-  c->footer(kFooter);
+  c->footer(kFilmFooter);
   c->add_option("DIR", o->folder, "Folder of a complete run")->required();
   c->add_option("--scene", o->scene, "The still whose camera and light the film has (default: the last)");
   c->add_option("--look", o->look, "Which look (default: the first that the still has)")

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFooter =
+constexpr const char* kInfoFooter =
     "\nExamples:\n"
     "  witherfield info out/hillside                          a run: frames, ranges, pictures, checks\n"
     "  witherfield info out/hillside/texel/texel_0001.vti     a file: arrays, units, ranges, geometry\n"
@@ -83,7 +83,7 @@ void print_run(const fs::path& folder) {
 void add_info_command(CLI::App& app, const bool&) {
   const auto input = std::make_shared<std::string>();
   CLI::App* c = app.add_subcommand("info", "What is in a file or in a run, with ranges and units");
-  c->footer(kFooter);
+  c->footer(kInfoFooter);
   c->add_option("INPUT", *input, "A .vti, .vtp or .pvd file, or the folder of a run")->required();
   c->callback([input] {
     if (!fs::exists(*input)) throw IoFailure("'" + *input + "': no such file or folder");

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFooter =
+constexpr const char* kRenderFooter =
     "\nExamples:\n"
     "  witherfield render out/hillside                              all stills, texel look\n"
     "  witherfield render out/hillside --look blades --quality final\n"
@@ -27,7 +27,7 @@ constexpr const char* kFooter =
     "Fruit and leaves have the look object, floors the look room.\n"
     "Pictures go to DIR/images/STILL_LOOK.png. Needs the program povray (Debian package povray).";
 
-struct Options {
+struct RenderOptions {
   std::string folder, scene, look, size, quality = "good";
   int threads = 0;
 };
@@ -50,7 +50,7 @@ std::string default_look(const StillRecord& s) {
   return s.scenes.empty() ? "" : s.scenes.front().first;
 }
 
-std::vector<Job> jobs_of(const Options& o, const RunSummary& run) {
+std::vector<Job> jobs_of(const RenderOptions& o, const RunSummary& run) {
   const fs::path folder = o.folder;
   if (run.stills.empty())
     throw InvalidInput(
@@ -79,7 +79,7 @@ std::vector<Job> jobs_of(const Options& o, const RunSummary& run) {
   return jobs;
 }
 
-void render(const Options& o, const bool& quiet) {
+void render(const RenderOptions& o, const bool& quiet) {
   Console console(quiet);
   pov::RenderOptions options;
   if (!o.size.empty()) std::tie(options.width_px, options.height_px) = parse_size(o.size);
@@ -110,9 +110,9 @@ void render(const Options& o, const bool& quiet) {
 }  // namespace
 
 void add_render_command(CLI::App& app, const bool& quiet) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RenderOptions>();
   CLI::App* c = app.add_subcommand("render", "POV-Ray pictures of the stills of a run");
-  c->footer(kFooter);
+  c->footer(kRenderFooter);
   c->add_option("DIR", o->folder, "Folder of a complete run")->required();
   c->add_option("--scene", o->scene, "Only the still of this name");
   c->add_option("--look", o->look, "Which look (default: texel, or the only one that the still has)")

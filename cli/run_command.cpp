@@ -16,7 +16,7 @@
 namespace witherfield::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRunFooter =
     "\nExamples:\n"
     "  witherfield run examples/hillside.toml                 writes out/hillside\n"
     "  witherfield run examples/maize_ear.toml --preview -o try   small, in seconds, to check a scene\n"
@@ -29,12 +29,12 @@ constexpr const char* kFooter =
     "default, value ranges, checks, timings), written last. docs/formats.md lists all files and arrays.\n"
     "The same scene gives the same files, byte for byte, for any number of threads.";
 
-struct Options {
+struct RunOptions {
   RunRequest request;
   std::string print_defaults;
 };
 
-void run(Options& o, const bool& quiet) {
+void run(RunOptions& o, const bool& quiet) {
   if (!o.print_defaults.empty()) {
     fmt::print("{}", scene::print_defaults(o.print_defaults));
     return;
@@ -56,9 +56,9 @@ void run(Options& o, const bool& quiet) {
 }  // namespace
 
 void add_run_command(CLI::App& app, const bool& quiet) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RunOptions>();
   CLI::App* c = app.add_subcommand("run", "Simulate a scene: VTK data, POV-Ray scenes, run.json");
-  c->footer(kFooter);
+  c->footer(kRunFooter);
   c->add_option("SCENE", o->request.scene, "Scene file (TOML)");
   c->add_option("-o,--output", o->request.folder, "Folder of the run (default: out/NAME of the scene)");
   c->add_option("--threads", o->request.threads, "Threads; 0 = all")

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_text(const fs::path& file) {
+std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -76,7 +76,7 @@ RunFolder::Found RunFolder::inspect(const std::string& signature, bool resume, b
                        (complete ? "a run" : "an unfinished run") + ": --resume " +
                        (complete ? "keeps it if it is of the same scene" : "finishes it") +
                        ", --force replaces it, -o DIR writes elsewhere");
-  if (!fs::exists(signature_file()) || read_text(signature_file()) != signature)
+  if (!fs::exists(signature_file()) || text_of(signature_file()) != signature)
     throw InvalidInput(
         "'" + path_.string() +
         "' holds a run of another scene or program version (see scene.resolved.json); it cannot be resumed. "

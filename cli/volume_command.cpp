@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFooter =
+constexpr const char* kVolumeFooter =
     "\nExamples:\n"
     "  witherfield volume out/hillside --field water --wd 0.3 -o water.png\n"
     "  witherfield volume out/hillside --field stress_vein_MPa --day 40 --surface -o stress.png\n"
@@ -36,7 +36,7 @@ constexpr const char* kFooter =
     "sets another.\n"
     "No display is needed.";
 
-struct Options {
+struct VolumeOptions {
   std::string input, png, size, range, field;
   std::optional<double> day, wd, azimuth_deg, elevation_deg;
   vis::VolumeOptions volume;
@@ -49,7 +49,7 @@ bool is_optics(const std::string& field) {
 }
 
 /// The file of the run's key frame nearest to the wanted time; the last one when no time is given.
-fs::path frame_file(const Options& o, Console& console) {
+fs::path frame_file(const VolumeOptions& o, Console& console) {
   const RunSummary run = read_run(o.input);
   const bool optics = run.kind == "grass" && is_optics(o.volume.field);
   const std::string series = run.kind != "grass" ? run.kind : optics ? "optics" : "texel";
@@ -78,7 +78,7 @@ constexpr Habit kHabits[] = {{"leaf", "water", -60, 40},
                              {"fruit", "moisture_wb", -90, 10},
                              {"floor", "wear_depth_um", -90, 89}};
 
-void set_habits(Options& o) {
+void set_habits(VolumeOptions& o) {
   const bool folder = fs::is_directory(o.input);
   const std::string kind = folder ? read_run(o.input).kind : "";
   for (const Habit& h : kHabits) {
@@ -92,7 +92,7 @@ void set_habits(Options& o) {
   o.volume.elevation_deg = o.elevation_deg.value_or(o.volume.elevation_deg);
 }
 
-void volume(Options& o, const bool& quiet) {
+void volume(VolumeOptions& o, const bool& quiet) {
   Console console(quiet);
   if (!fs::exists(o.input)) throw IoFailure("'" + o.input + "': no such file or folder");
   set_habits(o);
@@ -112,10 +112,10 @@ void volume(Options& o, const bool& quiet) {
 }  // namespace
 
 void add_volume_command(CLI::App& app, const bool& quiet) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<VolumeOptions>();
   CLI::App* c =
       app.add_subcommand("volume", "Picture of a field (volume rendering or a surface), without a display");
-  c->footer(kFooter);
+  c->footer(kVolumeFooter);
   c->add_option("INPUT", o->input, "A .vti or .vtp file, or the folder of a run")
       ->required();
   c->add_option("-o,--output", o->png, "Picture to write (PNG)")->required();

@@ -71,7 +71,7 @@ std::vector<Statement> statements(std::string_view toml) {
   return out;
 }
 
-std::string quoted(const std::string& text) {
+std::string toml_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -93,7 +93,7 @@ std::string edit_tables(const leaf::EditOptions& e) {
                      number_text(e.tolerance));
   for (const leaf::HandleOptions& h : e.handles) {
     out += "\n[[edit.handle]]\n";
-    if (!h.name.empty()) out += fmt::format("name = {}\n", quoted(h.name));
+    if (!h.name.empty()) out += fmt::format("name = {}\n", toml_text(h.name));
     if (h.by_uv)
       out += fmt::format("uv = {}\n", numbers({h.uv.x, h.uv.y}));
     else
@@ -103,7 +103,7 @@ std::string edit_tables(const leaf::EditOptions& e) {
   }
   for (const leaf::EditKey& k : e.keys) {
     out += "\n[[edit.key]]\n";
-    if (!k.name.empty()) out += fmt::format("name = {}\n", quoted(k.name));
+    if (!k.name.empty()) out += fmt::format("name = {}\n", toml_text(k.name));
     std::string moves;
     for (const glm::dvec3& m : k.move_m)
       moves += fmt::format("  {}, {}, {},\n", number_text(m.x), number_text(m.y), number_text(m.z));
@@ -117,10 +117,10 @@ std::string edit_tables(const leaf::EditOptions& e) {
 std::string with_edit(std::string_view toml, const SceneEdit& edit) {
   using Kind = Statement::Kind;
   std::string added;  // keys of the top, which must stand before the first table
-  if (edit.name) added += fmt::format("name = {}\n", quoted(*edit.name));
+  if (edit.name) added += fmt::format("name = {}\n", toml_text(*edit.name));
   if (edit.points_file)
-    added += fmt::format("points = {}\npoints_unit = {}\n", quoted(*edit.points_file), quoted(edit.points_unit));
-  if (edit.mesh_file) added += fmt::format("mesh_file = {}\n", quoted(*edit.mesh_file));
+    added += fmt::format("points = {}\npoints_unit = {}\n", toml_text(*edit.points_file), toml_text(edit.points_unit));
+  if (edit.mesh_file) added += fmt::format("mesh_file = {}\n", toml_text(*edit.mesh_file));
   const auto replaced = [&](const std::string& key) {
     return key == "edit" || (edit.points_file && (key == "points" || key == "points_unit")) ||
            (edit.mesh_file && key == "mesh_file") || (edit.name && key == "name");

@@ -7,7 +7,7 @@
 namespace witherfield::scene {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string toml_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -42,10 +42,10 @@ class Printer : public KeyVisitor {
   void seed(const Key& key, std::uint64_t& value) override { line(key, "", std::to_string(value)); }
   void flag(const Key& key, bool& value) override { line(key, "true or false", value ? "true" : "false"); }
   void text(const Key& key, std::string& value, const Choices& allowed) override {
-    line(key, quoted_list(allowed, "or"), quoted(value));
+    line(key, quoted_list(allowed, "or"), toml_text(value));
   }
   void texts(const Key& key, std::vector<std::string>& value, const Choices& allowed) override {
-    line(key, allowed.empty() ? "" : "any of " + quoted_list(allowed, "and"), bracketed(value, quoted));
+    line(key, allowed.empty() ? "" : "any of " + quoted_list(allowed, "and"), bracketed(value, toml_text));
   }
   void numbers(const Key& key, std::span<double> values, const Limits& limits, Order) override {
     line(key, limits_text(limits), bracketed(values, number_text));
@@ -66,7 +66,7 @@ class Printer : public KeyVisitor {
   }
   void preset(const Key& key, const Choices& names, std::string_view preset,
               const std::function<void(const std::string&)>&) override {
-    if (!plain_) line(key, quoted_list(names, "or"), quoted(preset.empty() ? names.front() : std::string(preset)),
+    if (!plain_) line(key, quoted_list(names, "or"), toml_text(preset.empty() ? names.front() : std::string(preset)),
          preset.empty());
   }
   void table(const Key& key, const Body& body) override { print_table(key, "[", "]", false, body); }
