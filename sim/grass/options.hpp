@@ -32,7 +32,7 @@ struct BladeOptions {
   double clumping = 0.6;                 ///< share of blades that stand in tufts, 0..1
   double tuft_radius_m = 0.006;          ///< sd of a tuft, 0..0.2
   int blades_per_tuft = 14;              ///< 1..1000
-  std::vector<std::pair<double, double>> tufts_at;  ///< where the tufts stand, in shares of the tile, 0..1; empty = at random
+  std::vector<std::pair<double, double>> tufts_at{};  ///< where the tufts stand, in shares of the tile, 0..1; empty = at random
   int twin = -1;                         ///< samples of equal number >= 0 draw the same blades; -1 = blades of its own; ..1023
   int segments = 24;                     ///< of the centre line, 4..128
 };

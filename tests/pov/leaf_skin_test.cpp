@@ -33,7 +33,9 @@ TEST_F(LeafSkin, LightOnALeaningNormalIsForetoldFromTheStraightOne) {
     const glm::vec3 n = glm::normalize(glm::vec3(0, 0, 1) + d);
     const float really = lit(d).above.irradiance[middle].g, still = straight.above.irradiance[middle].g;
     const float foretold = straight.above.at(middle, n - glm::vec3(0, 0, 1)).g;
-    if (d.x != 0) EXPECT_GT(std::abs(really - still), 0.05f * still);  // toward the key light and away from it
+    if (d.x != 0) {  // toward the key light and away from it
+      EXPECT_GT(std::abs(really - still), 0.05f * still);
+    }
     // The room's light is found with few directions: a tenth of the change and 2 % of the whole.
     EXPECT_NEAR(foretold, really, 0.1f * std::abs(really - still) + 0.02f * still) << d.x << " " << d.y;
   }
