@@ -32,7 +32,7 @@ using vis::MarkerLook;
 constexpr int kPicturePixels = 1024;      // of the veins over the leaf
 constexpr double kCurveReach_px = 12;     // a click this near to a curve makes a point on it
 constexpr double kNotice_s = 6;
-constexpr double kSolve_s = 0.0055;        // of a frame for solving, if it can be had
+constexpr double kSolve_s = 0.0055;       // of a frame for solving, if it can be had
 constexpr double kPanel_s = 0.25;         // between two refreshes of the panel while dragging, at least;
 constexpr double kPanelShare = 25;        // and so many times what one takes
 constexpr const char* kFields[] = {"", "strain_area", "displacement_m", "vein"};

@@ -242,8 +242,7 @@ class Window(ProgramTest):
         # A marker at the right margin: the ball that is farthest to the right.
         y, x = np.nonzero(g)
         k = np.argmax(x)
-        near = g & (np.hypot(*np.meshgrid(np.arange(g.shape[1]) - x[k], np.arange(g.shape[0]) - y[k])) < 14)
-        at = self.middle(near, "marker")
+        at = self.marker_at(g, x[k], y[k])
         self.screen.drag(at, (at[0] + 60, at[1]))
         self.wait_for(lambda: self.area() > area * 1.01, "a larger leaf")
         wider = self.still()
@@ -293,8 +292,7 @@ class Window(ProgramTest):
         violet = self.violet(flat)
         y, x = np.nonzero(violet)
         k = np.argmin(y)  # the tip is up
-        near = violet & (np.hypot(*np.meshgrid(np.arange(violet.shape[1]) - x[k], np.arange(violet.shape[0]) - y[k])) < 14)
-        at = self.middle(near, "marker at the tip")
+        at = self.marker_at(violet, x[k], y[k])
         area = self.area()
         self.screen.drag(at, (at[0] + 15, at[1] - 30))
         self.wait_for(lambda: self.area() > area + 0.4, "a longer leaf")
@@ -307,6 +305,11 @@ class Window(ProgramTest):
         self.title_holds(r"; %.1f cm2" % area)
         self.screen.key("c")  # the view took in the longer leaf
         self.looks_like(flat, 60)
+
+    def marker_at(self, mask, x, y):
+        """Middle of the ball that this pixel of its colour belongs to."""
+        near = np.hypot(*np.meshgrid(np.arange(mask.shape[1]) - x, np.arange(mask.shape[0]) - y)) < 14
+        return self.middle(mask & near, "marker")
 
     def violet(self, shot):
         r, g, b = (shot[:, :, k] for k in range(3))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <glm/geometric.hpp>
 
 #include "pov/floor_maps.hpp"
@@ -178,11 +179,26 @@ TEST_F(RoomSceneTest, HazeIsOnlyBehindWindowsThatTheSunReaches) {
   EXPECT_EQ(shafts(), 0u);
 }
 
+/// Where the cabinet's parts lie across the desk (its own z), summed: drawers stand out on one side.
+double cabinet_side(const std::string& text) {
+  double sum = 0;
+  const std::string end = "} texture{Cabinet}";
+  for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at + 1)) {
+    const std::size_t box = text.rfind("box{", at);
+    double a[3], b[3];
+    const std::string part = text.substr(box, at - box);
+    if (std::sscanf(part.c_str(), "box{<%lf,%lf,%lf>,<%lf,%lf,%lf>", a, a + 1, a + 2, b, b + 1, b + 2) == 6) sum += a[2] + b[2];
+  }
+  return sum;
+}
+
 TEST_F(RoomSceneTest, ADeskIsFurnishedOnTheSideOfItsSeat) {
   const auto drawers = [&] { return count(read_file(write_room_scene(folder, room)), "texture{Cabinet}"); };
   EXPECT_EQ(drawers(), 4u);  // a body and three fronts
+  EXPECT_LT(cabinet_side(read_file(folder / "small_room.pov")), -50);  // cm: to the south, where the seat is
   room.seats = {{{1.3, 1.65}, -90}};
   EXPECT_EQ(drawers(), 4u);
+  EXPECT_GT(cabinet_side(read_file(folder / "small_room.pov")), 50);
   room.seats = {{{2.6, 0.2}, 90}};  // of another place
   EXPECT_EQ(drawers(), 0u);
   room.seats.clear();
